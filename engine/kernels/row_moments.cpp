@@ -1,0 +1,436 @@
+#include "kernels/row_moments.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/row_moments.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once a target; must come before highway.h
+#include <hwy/highway.h>
+
+#include "kernels/samples-inl.h"
+
+#ifndef SHOAL_KERNELS_ROW_MOMENTS_ONCE
+#define SHOAL_KERNELS_ROW_MOMENTS_ONCE
+namespace shoal::kernels {
+
+// A row is taken in segments whose streams, four a channel, stay in the first-level cache.
+inline constexpr std::size_t kSegment = 512;
+inline constexpr int kStreamsPerChannel = 4;
+
+// The running extremes of a row, one a virtual lane.
+struct RunningRange {
+  alignas(kAlignment) std::array<float, 16> minimum;
+  alignas(kAlignment) std::array<float, 16> maximum;
+  alignas(kAlignment) std::array<std::int32_t, 16> magnitude;
+
+  void clear() {
+    minimum.fill(std::numeric_limits<float>::infinity());
+    maximum.fill(-std::numeric_limits<float>::infinity());
+    magnitude.fill(0);
+  }
+};
+
+}  // namespace shoal::kernels
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace shoal::kernels::HWY_NAMESPACE {
+
+inline constexpr std::size_t kLanes = hn::MaxLanes(FloatTag());
+
+// Extremes in registers while a segment is gathered. Magnitudes are compared as integers, where a
+// NaN or an infinity is larger than every finite number.
+class RangeTracker {
+ public:
+  explicit RangeTracker(RunningRange& range)
+      : range_(range),
+        minimum_(hn::Load(FloatTag(), range.minimum.data())),
+        maximum_(hn::Load(FloatTag(), range.maximum.data())),
+        magnitude_(hn::Load(IntTag(), range.magnitude.data())) {}
+
+  HWY_INLINE void see(FloatVec v) {
+    minimum_ = hn::Min(minimum_, v);
+    maximum_ = hn::Max(maximum_, v);
+    const auto bits = hn::And(hn::BitCast(IntTag(), v), hn::Set(IntTag(), 0x7FFFFFFF));
+    magnitude_ = hn::Max(magnitude_, bits);
+  }
+  HWY_INLINE void store() {
+    hn::Store(minimum_, FloatTag(), range_.minimum.data());
+    hn::Store(maximum_, FloatTag(), range_.maximum.data());
+    hn::Store(magnitude_, IntTag(), range_.magnitude.data());
+  }
+
+ private:
+  RunningRange& range_;
+  FloatVec minimum_;
+  FloatVec maximum_;
+  hn::Vec<IntTag> magnitude_;
+};
+
+HWY_INLINE void see_one(RunningRange& range, float value) {
+  range.minimum[0] = std::min(range.minimum[0], value);
+  range.maximum[0] = std::max(range.maximum[0], value);
+  const auto bits = static_cast<std::int32_t>(std::bit_cast<std::uint32_t>(value) & 0x7FFFFFFFU);
+  range.magnitude[0] = std::max(range.magnitude[0], bits);
+}
+
+HWY_INLINE FloatVec reversed(FloatVec v) { return hn::Reverse(FloatTag(), v); }
+
+HWY_INLINE float reversed(float v) { return v; }
+
+// The four columns k, W/2-1-k, W/2+k, W-1-k lie at phi, pi - phi, pi + phi, -phi, where cos(m .)
+// and sin(m .) are the same but for signs that depend on the parity of m. Their signed sums are the
+// streams that cosines of even m, cosines of odd m, sines of even m and sines of odd m are
+// multiplied with.
+template <typename V>
+struct Fourfold {
+  V even_cosine, odd_cosine, even_sine, odd_sine;
+};
+
+template <typename V, typename AddOp, typename SubOp>
+HWY_INLINE Fourfold<V> fold(V a, V b, V c, V d, AddOp add, SubOp sub) {
+  const V near_sum = add(a, d);
+  const V far_sum = add(b, c);
+  const V near_difference = sub(a, d);
+  const V far_difference = sub(c, b);
+  return {add(near_sum, far_sum), sub(near_sum, far_sum), add(near_difference, far_difference),
+          sub(near_difference, far_difference)};
+}
+
+template <typename Samples>
+void gather_fourfold(const Samples& samples, std::size_t width, std::size_t begin, std::size_t end,
+                     float* const* streams, RunningRange& range) {
+  const FloatTag tag;
+  const std::size_t half = width / 2;
+  const auto add = [](FloatVec x, FloatVec y) { return hn::Add(x, y); };
+  const auto sub = [](FloatVec x, FloatVec y) { return hn::Sub(x, y); };
+  RangeTracker tracker(range);
+  std::size_t k = begin;
+  for (; k + kLanes <= end; k += kLanes) {
+    const FloatVec a = samples.vector(k);
+    const FloatVec b = samples.vector(half - k - kLanes);
+    const FloatVec c = samples.vector(half + k);
+    const FloatVec d = samples.vector(width - k - kLanes);
+    tracker.see(a);
+    tracker.see(b);
+    tracker.see(c);
+    tracker.see(d);
+    const auto f = fold(a, reversed(b), c, reversed(d), add, sub);
+    hn::Store(f.even_cosine, tag, streams[0] + (k - begin));
+    hn::Store(f.odd_cosine, tag, streams[1] + (k - begin));
+    hn::Store(f.even_sine, tag, streams[2] + (k - begin));
+    hn::Store(f.odd_sine, tag, streams[3] + (k - begin));
+  }
+  tracker.store();
+  for (; k < end; ++k) {
+    const float a = samples.one(k);
+    const float b = samples.one(half - 1 - k);
+    const float c = samples.one(half + k);
+    const float d = samples.one(width - 1 - k);
+    for (const float value : {a, b, c, d}) see_one(range, value);
+    const auto f = fold(a, b, c, d, std::plus<float>(), std::minus<float>());
+    streams[0][k - begin] = f.even_cosine;
+    streams[1][k - begin] = f.odd_cosine;
+    streams[2][k - begin] = f.even_sine;
+    streams[3][k - begin] = f.odd_sine;
+  }
+}
+
+template <typename Samples>
+void gather_plain(const Samples& samples, std::size_t begin, std::size_t end, float* stream,
+                  RunningRange& range) {
+  RangeTracker tracker(range);
+  std::size_t k = begin;
+  for (; k + kLanes <= end; k += kLanes) {
+    const FloatVec v = samples.vector(k);
+    tracker.see(v);
+    hn::Store(v, FloatTag(), stream + (k - begin));
+  }
+  tracker.store();
+  for (; k < end; ++k) {
+    const float v = samples.one(k);
+    see_one(range, v);
+    stream[k - begin] = v;
+  }
+}
+
+// Fills the streams of one channel with columns [begin, end), and zeros up to a whole group.
+void gather(const RowMomentPlan& plan, const RowBand& band, int row, int channel, std::size_t begin,
+            std::size_t end, float* const* streams, RunningRange& range) {
+  with_samples(band, row, channel, [&](const auto& samples) {
+    if (plan.symmetry == Symmetry::four_fold) {
+      gather_fourfold(samples, static_cast<std::size_t>(plan.width), begin, end, streams, range);
+    } else {
+      gather_plain(samples, begin, end, streams[0], range);
+    }
+  });
+  const int stream_count = plan.symmetry == Symmetry::four_fold ? kStreamsPerChannel : 1;
+  for (int s = 0; s < stream_count; ++s) {
+    for (std::size_t k = end - begin; k % kVirtualLanes != 0; ++k) streams[s][k] = 0.0F;
+  }
+}
+
+// sums[t][c][lane] += sum over the segment of tables[t] * streams[t][c], in double per virtual
+// lane.
+//
+// Groups of 16 columns; up to 8 groups are added in a row, the four such runs of a segment
+// pairwise. That keeps the longest chain of single-precision additions short without any cost in
+// speed: the products of kTables * kChannels independent chains are in flight at once.
+template <int kTables, int kChannels>
+struct SegmentSums {
+  using Accumulators = FloatVec[kTables][kChannels];
+
+  const float* tables[kTables];
+  const float* streams[kTables][kChannels];
+  double* sums[kTables][kChannels];
+
+  HWY_INLINE void add_run(std::size_t group, std::size_t group_end, std::size_t lane,
+                          Accumulators& run) const {
+    const FloatTag tag;
+    for (auto& channel : run) std::fill(std::begin(channel), std::end(channel), hn::Zero(tag));
+    for (; group < group_end; ++group) {
+      const std::size_t at = group * kVirtualLanes + lane;
+      for (int t = 0; t < kTables; ++t) {
+        const FloatVec trig = hn::LoadU(tag, tables[t] + at);
+        for (int c = 0; c < kChannels; ++c) {
+          run[t][c] = hn::Add(run[t][c], hn::Mul(hn::Load(tag, streams[t][c] + at), trig));
+        }
+      }
+    }
+  }
+
+  HWY_INLINE void add_pair_of_runs(std::size_t group, std::size_t group_count, std::size_t lane,
+                                   Accumulators& pair) const {
+    Accumulators second;
+    add_run(std::min(group, group_count), std::min(group + 8, group_count), lane, pair);
+    add_run(std::min(group + 8, group_count), std::min(group + 16, group_count), lane, second);
+    for (int t = 0; t < kTables; ++t) {
+      for (int c = 0; c < kChannels; ++c) pair[t][c] = hn::Add(pair[t][c], second[t][c]);
+    }
+  }
+
+  void add_segment(std::size_t group_count) const {
+    for (std::size_t lane = 0; lane < kVirtualLanes; lane += kLanes) {
+      Accumulators low;
+      Accumulators high;
+      add_pair_of_runs(0, group_count, lane, low);
+      add_pair_of_runs(16, group_count, lane, high);
+      for (int t = 0; t < kTables; ++t) {
+        for (int c = 0; c < kChannels; ++c) {
+          alignas(kAlignment) float total[kLanes];
+          hn::Store(hn::Add(low[t][c], high[t][c]), FloatTag(), total);
+          for (std::size_t i = 0; i < kLanes; ++i) sums[t][c][lane + i] += total[i];
+        }
+      }
+    }
+  }
+};
+
+// All orders of one segment. streams: (kChannels, 4, kSegment); sums: (kChannels, 2L+1, 16).
+template <int kChannels>
+void accumulate(const RowMomentPlan& plan, std::size_t begin, std::size_t end, const float* streams,
+                double* sums) {
+  const std::size_t group_count = (end - begin + kVirtualLanes - 1) / kVirtualLanes;
+  const bool folded = plan.symmetry == Symmetry::four_fold;
+  const auto stream = [&](int channel, int index) {
+    return streams + (channel * kStreamsPerChannel + (folded ? index : 0)) * kSegment;
+  };
+  const auto sum = [&](int channel, int moment) {
+    return sums + (channel * plan.moment_count() + moment) * kVirtualLanes;
+  };
+  SegmentSums<1, kChannels> mean;
+  mean.tables[0] = plan.cosines.data() + begin;
+  for (int c = 0; c < kChannels; ++c) {
+    mean.streams[0][c] = stream(c, 0);
+    mean.sums[0][c] = sum(c, 0);
+  }
+  mean.add_segment(group_count);
+  for (int m = 1; m <= plan.degree; ++m) {
+    SegmentSums<2, kChannels> order;
+    order.tables[0] = plan.cosines.data() + m * plan.padded_length + begin;
+    order.tables[1] = plan.sines.data() + m * plan.padded_length + begin;
+    for (int c = 0; c < kChannels; ++c) {
+      order.streams[0][c] = stream(c, m % 2);
+      order.streams[1][c] = stream(c, 2 + m % 2);
+      order.sums[0][c] = sum(c, m);
+      order.sums[1][c] = sum(c, plan.degree + m);
+    }
+    order.add_segment(group_count);
+  }
+}
+
+// The fixed tree over the virtual lanes.
+double reduce_lanes(double* lanes) {
+  for (std::size_t width = kVirtualLanes / 2; width > 0; width /= 2) {
+    for (std::size_t i = 0; i < width; ++i) lanes[i] += lanes[i + width];
+  }
+  return lanes[0];
+}
+
+SampleRange reduce_range(const RunningRange& range) {
+  return {std::ranges::min(range.minimum), std::ranges::max(range.maximum),
+          static_cast<std::uint32_t>(std::ranges::max(range.magnitude))};
+}
+
+void RowMoments(const RowMomentPlan& plan, const RowBand& band, RowMomentScratch& scratch,
+                const MomentSlots& slots, std::span<SampleRange> ranges) {
+  const int channels = band.channel_count;
+  const std::size_t sum_count =
+      static_cast<std::size_t>(channels) * plan.moment_count() * kVirtualLanes;
+  scratch.streams.resize_uninitialised(kMaxChannels * kStreamsPerChannel * kSegment);
+  std::array<RunningRange, kMaxChannels> running;
+  for (int row = 0; row < band.row_count(); ++row) {
+    scratch.sums.resize_zeroed(sum_count);
+    for (auto& range : running) range.clear();
+    for (std::size_t begin = 0; begin < plan.stream_length; begin += kSegment) {
+      const std::size_t end = std::min(begin + kSegment, plan.stream_length);
+      for (int c = 0; c < channels; ++c) {
+        std::array<float*, kStreamsPerChannel> streams;
+        for (int s = 0; s < kStreamsPerChannel; ++s) {
+          streams[s] = scratch.streams.data() + (c * kStreamsPerChannel + s) * kSegment;
+        }
+        gather(plan, band, row, c, begin, end, streams.data(), running[c]);
+      }
+      const auto all_orders = channels == 1 ? accumulate<1> : accumulate<kMaxChannels>;
+      all_orders(plan, begin, end, scratch.streams.data(), scratch.sums.data());
+    }
+    for (int c = 0; c < channels; ++c) {
+      ranges[static_cast<std::size_t>(row) * channels + c] = reduce_range(running[c]);
+      double* sums = scratch.sums.data() + c * plan.moment_count() * kVirtualLanes;
+      double* slot = slots.first + c * slots.channel_stride + row;
+      for (int k = 0; k < plan.moment_count(); ++k) {
+        slot[k * slots.moment_stride] = reduce_lanes(sums + k * kVirtualLanes);
+      }
+    }
+  }
+}
+
+// One vector of a synthesised row: the sum over the orders of the given parity (or all, with step
+// 1).
+HWY_INLINE void synthesise_orders(const RowMomentPlan& plan, const float* moments, int first_order,
+                                  int step, std::size_t at, FloatVec& cosine_sum,
+                                  FloatVec& sine_sum) {
+  const FloatTag tag;
+  cosine_sum = hn::Zero(tag);
+  sine_sum = hn::Zero(tag);
+  for (int m = first_order; m <= plan.degree; m += step) {
+    const FloatVec cosine = hn::Load(tag, plan.cosines.data() + m * plan.padded_length + at);
+    cosine_sum = hn::Add(cosine_sum, hn::Mul(hn::Set(tag, moments[m]), cosine));
+    if (m == 0) continue;
+    const FloatVec sine = hn::Load(tag, plan.sines.data() + m * plan.padded_length + at);
+    sine_sum = hn::Add(sine_sum, hn::Mul(hn::Set(tag, moments[plan.degree + m]), sine));
+  }
+}
+
+void SynthesiseRow(const RowMomentPlan& plan, const float* moments, float* out) {
+  const FloatTag tag;
+  const std::size_t width = static_cast<std::size_t>(plan.width);
+  alignas(kAlignment) float block[4][kVirtualLanes];
+  for (std::size_t at = 0; at < plan.stream_length; at += kLanes) {
+    const std::size_t count = std::min(kLanes, plan.stream_length - at);
+    FloatVec ec;
+    FloatVec es;
+    if (plan.symmetry == Symmetry::none) {
+      synthesise_orders(plan, moments, 0, 1, at, ec, es);
+      hn::Store(hn::Add(ec, es), tag, block[0]);
+      std::copy_n(block[0], count, out + at);
+      continue;
+    }
+    FloatVec oc;
+    FloatVec os;
+    synthesise_orders(plan, moments, 0, 2, at, ec, es);
+    synthesise_orders(plan, moments, 1, 2, at, oc, os);
+    hn::Store(hn::Add(hn::Add(ec, oc), hn::Add(es, os)), tag, block[0]);
+    hn::Store(hn::Add(hn::Sub(ec, oc), hn::Sub(os, es)), tag, block[1]);
+    hn::Store(hn::Add(hn::Sub(ec, oc), hn::Sub(es, os)), tag, block[2]);
+    hn::Store(hn::Sub(hn::Add(ec, oc), hn::Add(es, os)), tag, block[3]);
+    std::copy_n(block[0], count, out + at);
+    std::reverse_copy(block[1], block[1] + count, out + width / 2 - at - count);
+    std::copy_n(block[2], count, out + width / 2 + at);
+    std::reverse_copy(block[3], block[3] + count, out + width - at - count);
+  }
+}
+
+void WidenRow(const RowBand& band, int row, int channel, float* out) {
+  with_samples(band, row, channel, [&](const auto& samples) {
+    const auto width = static_cast<std::size_t>(band.width);
+    std::size_t k = 0;
+    for (; k + kLanes <= width; k += kLanes) hn::StoreU(samples.vector(k), FloatTag(), out + k);
+    for (; k < width; ++k) out[k] = samples.one(k);
+  });
+}
+
+}  // namespace shoal::kernels::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include <cmath>
+#include <numbers>
+
+namespace shoal::kernels {
+
+HWY_EXPORT(RowMoments);
+HWY_EXPORT(SynthesiseRow);
+HWY_EXPORT(WidenRow);
+
+namespace {
+
+// The narrowest width at which folding pays, and at which reversed vectors stay inside the row.
+constexpr int kMinFoldedWidth = 64;
+
+bool columns_come_in_fours(int width, const ColumnPhases& phases) {
+  return width % 4 == 0 && width >= kMinFoldedWidth && phases.step == 2 * phases.first &&
+         phases.turn == width * phases.step && phases.edge_weight == 1.0;
+}
+
+}  // namespace
+
+RowMomentPlan make_row_moment_plan(int width, int degree, const ColumnPhases& phases) {
+  RowMomentPlan plan;
+  plan.width = width;
+  plan.degree = degree;
+  if (columns_come_in_fours(width, phases)) plan.symmetry = Symmetry::four_fold;
+  plan.stream_length =
+      static_cast<std::size_t>(plan.symmetry == Symmetry::four_fold ? width / 4 : width);
+  plan.padded_length = (plan.stream_length + 15) / 16 * 16;
+  plan.cosines.resize_zeroed((degree + 1) * plan.padded_length);
+  plan.sines.resize_zeroed((degree + 1) * plan.padded_length);
+  for (int m = 0; m <= degree; ++m) {
+    for (std::size_t j = 0; j < plan.stream_length; ++j) {
+      // The angle is reduced in integers, so that a high order costs no accuracy. Long double,
+      // because libraries choose their double functions by the processor, and the bits with them.
+      const std::int64_t phase =
+          (phases.first + phases.step * static_cast<std::int64_t>(j)) * m % phases.turn;
+      const long double angle = 2.0L * std::numbers::pi_v<long double> *
+                                static_cast<long double>(phase) /
+                                static_cast<long double>(phases.turn);
+      const bool at_edge = j == 0 || j + 1 == static_cast<std::size_t>(width);
+      const long double weight = at_edge ? phases.edge_weight : 1.0;
+      plan.cosines[m * plan.padded_length + j] = static_cast<float>(weight * std::cos(angle));
+      plan.sines[m * plan.padded_length + j] = static_cast<float>(weight * std::sin(angle));
+    }
+  }
+  return plan;
+}
+
+void row_moments(const RowMomentPlan& plan, const RowBand& band, RowMomentScratch& scratch,
+                 const MomentSlots& slots, std::span<SampleRange> ranges) {
+  HWY_DYNAMIC_DISPATCH(RowMoments)(plan, band, scratch, slots, ranges);
+}
+
+void synthesise_row(const RowMomentPlan& plan, std::span<const double> moments,
+                    RowMomentScratch& scratch, float* out) {
+  scratch.streams.resize_uninitialised(moments.size());
+  std::ranges::transform(moments, scratch.streams.data(),
+                         [](double moment) { return static_cast<float>(moment); });
+  HWY_DYNAMIC_DISPATCH(SynthesiseRow)(plan, scratch.streams.data(), out);
+}
+
+void widen_row(const RowBand& band, int row, int channel, float* out) {
+  HWY_DYNAMIC_DISPATCH(WidenRow)(band, row, channel, out);
+}
+
+}  // namespace shoal::kernels
+#endif
