@@ -1,0 +1,21 @@
+// EXR parts that need OpenEXR's C++ classes: DWAA and DWAB where the C library lacks them, parts
+// with subsampled channels beside the colour, and luminance/chroma, which becomes RGB in reading.
+//
+// Every reader opens the file's header for itself, so that readers do not wait for each other.
+#pragma once
+
+#include <memory>
+
+#include "core/result.h"
+#include "image/exr_band_reader.h"
+
+namespace shoal {
+
+// Planar rows in the file's own sample type. Errors: malformed.
+Result<std::unique_ptr<BandReader>> new_exr_imf_reader(std::shared_ptr<const ExrPicture> picture);
+
+// Luminance/chroma as half R, G, B, with the library's reconstruction filter. Errors: malformed.
+Result<std::unique_ptr<BandReader>> new_exr_luminance_chroma_reader(
+    std::shared_ptr<const ExrPicture> picture);
+
+}  // namespace shoal
