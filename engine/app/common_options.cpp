@@ -1,0 +1,102 @@
+#include "app/common_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "app/messages.h"
+#include "batch/scheduler.h"
+#include "kernels/targets.h"
+
+namespace shoal {
+
+void add_compute_options(CLI::App& command, ComputeOptions& options) {
+  command.add_option("-j,--threads", options.threads, "Workers; as many as processors by default")
+      ->check(CLI::Range(1, 1024));
+  command.add_option("--target", options.target,
+                     "SIMD target, one of `shoal targets`; changes speed, never a bit");
+  command.add_flag("--reference", options.reference,
+                   "Compute with the long-double twin: slow, obviously correct");
+  command.add_option("--degree", options.degree, "Highest degree L, 0 to 64")
+      ->check(CLI::Range(0, kMaxDegree));
+  command.add_option("--quadrature", options.quadrature, "texel, midpoint or fejer");
+  command.add_option("--quantity", options.quantities,
+                     "radiance, irradiance or irradiance-over-pi; may be repeated");
+  command.add_option("--frame", options.frame,
+                     "Frame of the coefficients: a name, or where the panorama's centre, right and "
+                     "up point, such as +z,-x,+y");
+}
+
+Result<ComputeChoice> understand(const ComputeOptions& options) {
+  ComputeChoice choice;
+  choice.threads = options.threads > 0 ? options.threads : default_thread_count();
+  choice.degree = options.degree;
+  if (options.reference) choice.arithmetic = Arithmetic::reference;
+  if (!options.target.empty()) SHOAL_RETURN_IF_ERROR(kernels::force_target(options.target));
+  if (!options.quadrature.empty()) {
+    SHOAL_ASSIGN_OR_RETURN(quadrature, parse_quadrature(options.quadrature));
+    choice.quadrature = quadrature;
+  }
+  for (const std::string& name : options.quantities) {
+    SHOAL_ASSIGN_OR_RETURN(quantity, parse_quantity(name));
+    if (std::ranges::find(choice.quantities, quantity) == choice.quantities.end()) {
+      choice.quantities.push_back(quantity);
+    }
+  }
+  if (!options.frame.empty()) {
+    SHOAL_ASSIGN_OR_RETURN(frame, parse_frame(options.frame));
+    choice.frame = frame;
+  }
+  for (const std::string& name : options.formats) {
+    for (const TableFormat format : {TableFormat::csv, TableFormat::json, TableFormat::npy}) {
+      if (name == name_of(format)) choice.formats.push_back(format);
+    }
+  }
+  return choice;
+}
+
+void override_manifest(const ComputeChoice& choice, Manifest& manifest) {
+  for (PanoramaEntry& entry : manifest.entries) {
+    if (choice.degree) entry.projection.degree = *choice.degree;
+    if (choice.quadrature) entry.projection.quadrature = *choice.quadrature;
+    entry.projection.arithmetic = choice.arithmetic;
+    if (choice.frame) entry.linear.frame = choice.frame;
+  }
+  if (choice.frame) {
+    for (Variant& variant : manifest.variants) variant.linear.frame = choice.frame;
+  }
+  if (!choice.quantities.empty()) manifest.quantities = choice.quantities;
+  if (!choice.formats.empty()) manifest.tables = choice.formats;
+}
+
+void add_manifest_options(CLI::App& command, ManifestOptions& options) {
+  command.add_option("MANIFEST", options.path, "The manifest, a YAML file")->required();
+  command.add_option("--set", options.sets, "NAME=VALUE: gives a variable of the manifest a value")
+      ->check([](const std::string& text) {
+        return text.find('=') == std::string::npos || text.front() == '='
+                   ? "\"" + text + "\" is not NAME=VALUE"
+                   : std::string();
+      });
+  command.add_option("--only", options.only, "Only panoramas with a name or tag like this glob");
+  command.add_flag("--force", options.force, "Process what is up to date, too");
+  command.add_flag("--verify-inputs", options.verify_inputs,
+                   "Hash every file; else unchanged size and time stand for unchanged content");
+}
+
+std::optional<Manifest> load_and_report(const ManifestOptions& options) {
+  LoadOptions load;
+  for (const std::string& set : options.sets) {
+    const std::size_t equals = set.find('=');
+    load.sets.emplace_back(set.substr(0, equals), set.substr(equals + 1));
+  }
+  ManifestResult result = load_manifest(options.path, load);
+  fmt::print(stderr, "{}", result.messages);
+  if (!result.manifest) {
+    fmt::print(stderr, "{} {} in {}; nothing was run\n", result.error_count,
+               result.error_count == 1 ? "error" : "errors", options.path);
+  }
+  return std::move(result.manifest);
+}
+
+}  // namespace shoal

@@ -1,0 +1,84 @@
+#include "app/messages.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "batch/store.h"
+#include "batch/terminal.h"
+
+namespace shoal {
+namespace {
+
+// More than this many warnings would hide everything else; the store has them all.
+constexpr std::size_t kMaxWarnings = 20;
+
+const Terminal& terminal() {
+  static const Terminal kTerminal = terminal_of(STDERR_FILENO);
+  return kTerminal;
+}
+
+void print_line(std::string_view line) { fmt::print(stderr, "{}\n", line); }
+
+void print_labelled(Style style, std::string_view label, std::string_view text) {
+  print_line(fmt::format("{} {}", styled(terminal(), style, label), text));
+}
+
+std::string counted(std::int64_t count, std::string_view what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+void print_error(const Error& error) { print_labelled(Style::red, "error:", error.text()); }
+
+void print_warnings(const std::vector<PanoramaNote>& warnings) {
+  for (std::size_t i = 0; i < warnings.size() && i < kMaxWarnings; ++i) {
+    print_labelled(Style::yellow, "warning:",
+                   fmt::format("{}: {}", printable(warnings[i].panorama), warnings[i].text));
+  }
+  if (warnings.size() > kMaxWarnings) {
+    print_labelled(
+        Style::yellow, "warning:",
+        fmt::format("and {} more; the store has them all", warnings.size() - kMaxWarnings));
+  }
+}
+
+void print_failures(const std::vector<PanoramaNote>& failures) {
+  for (const PanoramaNote& failure : failures) {
+    print_labelled(Style::red, "failed:", printable(failure.text));
+  }
+}
+
+void print_summary(const RunSummary& summary, const Manifest& manifest) {
+  std::string line =
+      styled(terminal(), Style::bold, counted(summary.done_count, "panorama") + " done");
+  if (summary.up_to_date_count > 0)
+    line += fmt::format(", {} up to date", summary.up_to_date_count);
+  if (!summary.failures.empty()) line += fmt::format(", {} failed", summary.failures.size());
+  if (summary.pixel_count > 0 && summary.seconds > 0.0) {
+    line += fmt::format(" in {:.3g} s: {:.3g} Mpixel/s, {:.3g} MB/s of files", summary.seconds,
+                        static_cast<double>(summary.pixel_count) / 1e6 / summary.seconds,
+                        static_cast<double>(summary.byte_count) / 1e6 / summary.seconds);
+  }
+  print_line(line);
+  if (summary.interrupted) {
+    print_line("interrupted; what is finished is kept, and the same command goes on from there");
+    return;
+  }
+  if (summary.missing_count > 0) {
+    print_line(
+        fmt::format("{} of the manifest not in the tables: failed, or not run with these "
+                    "parameters yet",
+                    counted(summary.missing_count, "panorama")));
+  }
+  for (const std::string& table : summary.tables) print_line("  table  " + table);
+  if (!manifest.maps.empty()) {
+    print_line(fmt::format("  maps   {}/maps ({} written)", manifest.output.string(),
+                           counted(summary.map_count, "file")));
+  }
+  print_line(fmt::format("  store  {}/{}", manifest.output.string(), kStoreFileName));
+}
+
+}  // namespace shoal

@@ -1,0 +1,57 @@
+#include "app/plan_listing.h"
+
+#include <fmt/format.h>
+
+#include "app/commands.h"
+#include "app/messages.h"
+#include "batch/terminal.h"
+
+namespace shoal {
+namespace {
+
+std::string_view verb(ItemWork work) {
+  switch (work) {
+    case ItemWork::none:
+      return "skip";
+    case ItemWork::outputs:
+      return "maps";
+    case ItemWork::all:
+      return "project";
+  }
+  return "";
+}
+
+Result<Plan> plan_against_store(const Manifest& manifest, const PlanOptions& options) {
+  const auto path = manifest.output / kStoreFileName;
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) return make_plan(manifest, nullptr, options);
+  SHOAL_ASSIGN_OR_RETURN(store, Store::open(path, Store::Access::read));
+  return make_plan(manifest, &store, options);
+}
+
+}  // namespace
+
+PlanOptions plan_options(const ManifestOptions& options) {
+  PlanOptions plan;
+  plan.only = options.only;
+  if (options.force) plan.force = PlanOptions::Force::yes;
+  if (options.verify_inputs) plan.inputs = PlanOptions::Inputs::by_content;
+  return plan;
+}
+
+int list_plan(const Manifest& manifest, const ManifestOptions& options) {
+  const Result<Plan> plan = plan_against_store(manifest, plan_options(options));
+  if (!plan) {
+    print_error(plan.error());
+    return kExitUsage;
+  }
+  for (const PlannedItem& item : plan->items) {
+    fmt::print("{:<8} {}  ({})\n", verb(item.work), printable(item.entry->name), item.reason);
+  }
+  fmt::print("{} to project, {} to write maps of, {} up to date; output in {}\n",
+             plan->count(ItemWork::all), plan->count(ItemWork::outputs),
+             plan->count(ItemWork::none), manifest.output.string());
+  return kExitOk;
+}
+
+}  // namespace shoal

@@ -1,0 +1,141 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "app/commands.h"
+#include "app/common_options.h"
+#include "app/interrupt.h"
+#include "app/messages.h"
+#include "batch/scheduler.h"
+
+namespace shoal {
+namespace {
+
+struct ProjectCommand {
+  std::vector<std::string> files;
+  ComputeOptions compute;
+};
+
+// Collects results from the workers and prints them in the order of the files, as soon as that is
+// possible.
+class OrderedTable {
+ public:
+  OrderedTable(const std::vector<std::string>& files, const ComputeChoice& choice,
+               TableWriter& writer)
+      : files_(files), choice_(choice), writer_(writer), results_(files.size()) {}
+
+  void take(std::size_t index, Result<Projection> result) {
+    const std::scoped_lock lock(mutex_);
+    results_[index] = std::move(result);
+    while (next_ < results_.size() && results_[next_] && write_status_) {
+      print(files_[next_], *results_[next_]);
+      results_[next_++].reset();
+    }
+  }
+
+  [[nodiscard]] const std::vector<PanoramaNote>& failures() const { return failures_; }
+  [[nodiscard]] const std::vector<PanoramaNote>& warnings() const { return warnings_; }
+  [[nodiscard]] const Status& write_status() const { return write_status_; }
+
+ private:
+  void print(const std::string& file, Result<Projection>& result) {
+    if (!result) {
+      failures_.push_back({file, result.error().text()});
+      return;
+    }
+    for (const std::string& warning : result->warnings) warnings_.push_back({file, warning});
+    const Frame frame = choice_.frame.value_or(Frame{});
+    const Coefficients radiance = to_frame(result->radiance, frame);
+    for (const Quantity quantity : choice_.quantities) {
+      if (write_status_) {
+        write_status_ =
+            writer_.append({file, "", quantity, apply_quantity(radiance, quantity), frame});
+      }
+    }
+  }
+
+  const std::vector<std::string>& files_;
+  const ComputeChoice& choice_;
+  TableWriter& writer_;
+  std::mutex mutex_;
+  std::vector<std::optional<Result<Projection>>> results_;
+  std::size_t next_ = 0;
+  Status write_status_;
+  std::vector<PanoramaNote> failures_;
+  std::vector<PanoramaNote> warnings_;
+};
+
+Status write_to_stdout(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size()) return {};
+  return Error{ErrorCode::write_failed, "cannot be written", "standard output", ""};
+}
+
+ProjectionSettings settings_of(const ComputeChoice& choice) {
+  ProjectionSettings settings;
+  settings.degree = choice.degree.value_or(settings.degree);
+  settings.quadrature = choice.quadrature.value_or(settings.quadrature);
+  settings.arithmetic = choice.arithmetic;
+  return settings;
+}
+
+int project_files(const std::vector<std::string>& files, const ComputeChoice& choice,
+                  TableWriter& writer) {
+  OrderedTable table(files, choice, writer);
+  ProjectionTables tables;
+  const std::atomic<bool>& stop = stop_on_interrupt();
+  std::atomic<std::int64_t> pixels_done{0};
+  JobSteps steps;
+  steps.open = [&](std::size_t index) {
+    return PanoramaProjection::open(files[index], {}, settings_of(choice), tables);
+  };
+  steps.finish = [&](std::size_t index, PanoramaProjection* projection, Status status) {
+    table.take(index,
+               status ? projection->finish() : Result<Projection>(std::move(status).error()));
+  };
+  steps.tick = [] {};
+  run_jobs(files.size(), choice.threads, stop, pixels_done, steps);
+  if (stop) return kExitInterrupted;
+  Status written = table.write_status() ? Status() : Status(table.write_status().error());
+  if (written) {
+    if (auto committed = writer.commit(); !committed) written = std::move(committed).error();
+  }
+  print_warnings(table.warnings());
+  print_failures(table.failures());
+  if (!written) print_error(written.error());
+  return table.failures().empty() && written ? kExitOk : kExitFailed;
+}
+
+int project(const ProjectCommand& command) {
+  Result<ComputeChoice> choice = understand(command.compute);
+  if (!choice) {
+    print_error(choice.error());
+    return kExitUsage;
+  }
+  if (choice->quantities.empty()) choice->quantities = {Quantity::radiance};
+  const TableFormat format = choice->formats.empty() ? TableFormat::csv : choice->formats.front();
+  auto writer = stream_table(format, write_to_stdout, VariantColumn::absent);
+  if (!writer) {
+    print_error(writer.error());
+    return kExitUsage;
+  }
+  return project_files(command.files, *choice, **writer);
+}
+
+}  // namespace
+
+void add_project_command(CLI::App& app, Action& action) {
+  CLI::App* command =
+      app.add_subcommand("project", "Print the coefficients of panoramas; nothing is written");
+  auto options = std::make_shared<ProjectCommand>();
+  command->add_option("FILE", options->files, "Panoramas")->required();
+  add_compute_options(*command, options->compute);
+  command->add_option("--format", options->compute.formats, "csv (the default) or json")
+      ->check(CLI::IsMember({"csv", "json"}))
+      ->expected(1);
+  command->callback([&action, options] { action = [options] { return project(*options); }; });
+}
+
+}  // namespace shoal

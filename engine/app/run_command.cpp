@@ -1,0 +1,90 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "app/commands.h"
+#include "app/common_options.h"
+#include "app/interrupt.h"
+#include "app/messages.h"
+#include "app/plan_listing.h"
+#include "batch/run.h"
+
+namespace shoal {
+namespace {
+
+struct RunCommand {
+  ManifestOptions manifest;
+  ComputeOptions compute;
+  bool dry_run = false;
+  bool explain = false;
+  bool fail_fast = false;
+  std::string progress = "auto";
+};
+
+void explain_plan(const Plan& plan) {
+  for (const PlannedItem& item : plan.items) {
+    if (item.work != ItemWork::none) {
+      fmt::print(stderr, "runs: {} ({})\n", printable(item.entry->name), item.reason);
+    }
+  }
+}
+
+Result<RunSummary> plan_and_run(const RunCommand& command, const Manifest& manifest,
+                                const RunSettings& settings, ProgressMode mode) {
+  SHOAL_ASSIGN_OR_RETURN(store,
+                         Store::open(manifest.output / kStoreFileName, Store::Access::write));
+  SHOAL_ASSIGN_OR_RETURN(plan, make_plan(manifest, &store, plan_options(command.manifest)));
+  if (command.explain) explain_plan(plan);
+  Progress progress(mode);
+  return run_plan(manifest, plan, store, settings, progress, stop_on_interrupt());
+}
+
+int exit_status(const Error& error) {
+  return error.code == ErrorCode::usage ? kExitUsage : kExitFailed;
+}
+
+int run(const RunCommand& command) {
+  const Result<ComputeChoice> choice = understand(command.compute);
+  const Result<ProgressMode> mode = parse_progress_mode(command.progress);
+  if (!choice || !mode) {
+    print_error(choice ? mode.error() : choice.error());
+    return kExitUsage;
+  }
+  std::optional<Manifest> manifest = load_and_report(command.manifest);
+  if (!manifest) return kExitUsage;
+  override_manifest(*choice, *manifest);
+  if (command.dry_run) return list_plan(*manifest, command.manifest);
+
+  RunSettings settings;
+  settings.threads = choice->threads;
+  if (command.fail_fast) settings.on_failure = RunSettings::OnFailure::stop;
+  const Result<RunSummary> summary = plan_and_run(command, *manifest, settings, *mode);
+  if (!summary) {
+    print_error(summary.error());
+    return exit_status(summary.error());
+  }
+  print_warnings(summary->warnings);
+  print_failures(summary->failures);
+  print_summary(*summary, *manifest);
+  if (summary->interrupted) return kExitInterrupted;
+  return summary->failures.empty() ? kExitOk : kExitFailed;
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, Action& action) {
+  CLI::App* command =
+      app.add_subcommand("run", "Process what a manifest names and is not up to date");
+  auto options = std::make_shared<RunCommand>();
+  add_manifest_options(*command, options->manifest);
+  add_compute_options(*command, options->compute);
+  command->add_option("--format", options->compute.formats, "Tables to write: csv, json, npy")
+      ->check(CLI::IsMember({"csv", "json", "npy"}));
+  command->add_flag("-n,--dry-run", options->dry_run, "Print the plan, do nothing");
+  command->add_flag("--explain", options->explain, "Say why each panorama runs");
+  command->add_flag("--fail-fast", options->fail_fast, "Stop at the first panorama that fails");
+  command->add_option("--progress", options->progress, "auto, bar, plain, json or none");
+  command->callback([&action, options] { action = [options] { return run(*options); }; });
+}
+
+}  // namespace shoal

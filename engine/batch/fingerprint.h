@@ -1,0 +1,36 @@
+// Hashes of what results depend on, by which the store knows whether they still hold.
+//
+// Whoever adds a parameter that changes results adds it here; whoever changes what the same
+// parameters compute raises kAlgorithmVersion.
+#pragma once
+
+#include <string>
+
+#include "batch/manifest.h"
+#include "core/result.h"
+
+namespace shoal {
+
+// The version of the computation: pixels to coefficients, and coefficients to files.
+inline constexpr int kAlgorithmVersion = 1;
+
+// What a panorama's projection depends on besides its file.
+struct ProjectionParameters {
+  ReadOptions read;
+  ProjectionSettings projection;
+};
+
+// The same as a line of YAML with the manifest's own keys, for the store; its hash tells whether
+// two are the same. Band height, threads and SIMD target are not in it: they change no bit.
+[[nodiscard]] std::string parameter_text(const PanoramaEntry& entry);
+
+// Reads it back. Error: malformed.
+Result<ProjectionParameters> parse_parameters(const std::string& text);
+
+// Of what a panorama's own files depend on besides its projection.
+[[nodiscard]] std::string output_hash(const Manifest& manifest, const PanoramaEntry& entry);
+
+// Of what one row of the tables depends on besides the projection: for all variants and quantities.
+[[nodiscard]] std::string table_hash(const Manifest& manifest, const PanoramaEntry& entry);
+
+}  // namespace shoal

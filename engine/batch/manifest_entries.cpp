@@ -1,0 +1,208 @@
+#include "batch/manifest_entries.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <system_error>
+#include <unordered_set>
+#include <utility>
+
+#include "batch/glob.h"
+#include "batch/manifest_names.h"
+
+namespace shoal {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kMapFolders[] = {"maps", "exports"};
+
+PanoramaEntry make_panorama(const EntryText& entry, fs::path file, SourceLoc loc) {
+  PanoramaEntry panorama;
+  panorama.file = std::move(file);
+  panorama.tags = entry.settings.tags;
+  panorama.read = entry.settings.read;
+  panorama.projection = entry.settings.projection;
+  panorama.linear = entry.settings.linear;
+  panorama.loc = std::move(loc);
+  return panorama;
+}
+
+// A name of the file's folder that is near to the file's, in quotes as a question, or "".
+std::string nearby_file(const fs::path& file) {
+  std::error_code error;
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  std::vector<std::string> names;
+  for (fs::directory_iterator it(folder, error); !error && it != fs::directory_iterator();
+       it.increment(error)) {
+    names.push_back(it->path().filename().string());
+  }
+  if (error) return fmt::format("{}: {}", folder.string(), error.message());
+  std::sort(names.begin(), names.end());
+  return did_you_mean(file.filename().string(), {names.begin(), names.end()});
+}
+
+void find_file(const EntryText& entry, PanoramaNames& names, std::vector<PanoramaEntry>& found,
+               ManifestLog& log) {
+  const fs::path file = (entry.folder / entry.file->text).lexically_normal();
+  const SourceLoc& loc = entry.file->loc;
+  if (const std::string fault = entry.name ? name_fault(entry.name->text) : ""; !fault.empty()) {
+    log.error(entry.name->loc, fmt::format("the name {} {}", in_quotes(entry.name->text), fault));
+  }
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (fs::is_directory(status)) {
+    return log.error(loc, fmt::format("{} is a folder", in_quotes(file.string())),
+                     "files: \"FOLDER/*.hdr\" takes what lies in it");
+  }
+  if (!fs::exists(status)) {
+    const bool is_pattern = entry.file->text.find_first_of("*?[{") != std::string::npos;
+    return log.error(loc, fmt::format("no file {}", in_quotes(file.string())),
+                     is_pattern ? "patterns go under files:" : nearby_file(file));
+  }
+  if (!fs::is_regular_file(status)) {
+    return log.error(loc, fmt::format("{} is not a regular file", in_quotes(file.string())));
+  }
+  if (entry.name) {
+    names.add_given(entry.name->text, entry.name->loc);
+  } else {
+    names.add_path(file.filename().string());
+  }
+  found.push_back(make_panorama(entry, file, entry.loc));
+}
+
+// An exclude: pattern with whether it has excluded anything.
+struct Exclude {
+  Glob glob;
+  LocatedText source;
+  bool used = false;
+};
+
+std::vector<Exclude> parse_excludes(const EntryText& entry, ManifestLog& log) {
+  std::vector<Exclude> excludes;
+  for (const LocatedText& source : entry.exclude) {
+    Result<Glob> glob = Glob::parse(source.text);
+    if (glob)
+      excludes.push_back({std::move(glob).value(), source});
+    else
+      log.error(source.loc, glob.error().what, glob.error().hint);
+  }
+  return excludes;
+}
+
+// Patterns look at what names are made of, and at the path as files: would spell it.
+bool is_excluded(std::vector<Exclude>& excludes, const std::string& path,
+                 const std::string& fixed_part) {
+  bool excluded = false;
+  for (Exclude& exclude : excludes) {
+    if (!exclude.glob.selects(path) && !exclude.glob.matches(fixed_part + path)) continue;
+    exclude.used = true;
+    excluded = true;
+  }
+  return excluded;
+}
+
+// What begins the paths below `root` that lie in the folders of maps.
+std::vector<std::string> output_prefixes(const fs::path& root, const fs::path& output) {
+  std::vector<std::string> prefixes;
+  std::error_code error;
+  const fs::path base = fs::weakly_canonical(fs::absolute(root, error), error);
+  for (const std::string_view folder : kMapFolders) {
+    const fs::path maps = fs::weakly_canonical(fs::absolute(output / folder, error), error);
+    const std::string below = maps.lexically_relative(base / "").string();
+    if (!below.starts_with("..")) prefixes.push_back(below == "." ? "" : below + "/");
+  }
+  return prefixes;
+}
+
+// Why a pattern has found nothing, as far as can be told.
+std::string why_nothing(const LocatedText& pattern, const EntryText& entry, const Glob& glob,
+                        const GlobMatches& matches) {
+  if (!matches.paths.empty()) return "maps that shoal itself has written are left out";
+  if (!matches.unreadable.empty()) {
+    return fmt::format("{}: {}", matches.unreadable[0].path, matches.unreadable[0].reason);
+  }
+  if (pattern.text.find("**") != std::string::npos) return "";
+  const std::string& fixed = glob.fixed_part();
+  if (!pattern.text.starts_with(fixed)) return "";
+  const std::string deeper = fixed + "**/" + pattern.text.substr(fixed.size());
+  const Result<Glob> deep_glob = Glob::parse(deeper);
+  if (!deep_glob || deep_glob->expand(entry.folder).paths.empty()) return "";
+  return fmt::format("in folders below there are some: {}", in_quotes(deeper));
+}
+
+struct Search {
+  const EntryText& entry;
+  const fs::path& output;
+  std::vector<Exclude> excludes;
+  std::unordered_set<std::string> taken;  // patterns of one entry may overlap
+};
+
+void find_pattern(const LocatedText& pattern, Search& search, PanoramaNames& names,
+                  std::vector<PanoramaEntry>& found, ManifestLog& log) {
+  const Result<Glob> glob = Glob::parse(pattern.text);
+  if (!glob) return log.error(pattern.loc, glob.error().what, glob.error().hint);
+  const GlobMatches matches = glob->expand(search.entry.folder);
+  const std::vector<std::string> skipped = output_prefixes(matches.root, search.output);
+  std::size_t eligible = 0;
+  std::size_t excluded = 0;
+  for (const std::string& path : matches.paths) {
+    const auto is_below = [&path](const std::string& prefix) { return path.starts_with(prefix); };
+    if (std::any_of(skipped.begin(), skipped.end(), is_below)) continue;
+    ++eligible;
+    if (is_excluded(search.excludes, path, glob->fixed_part())) {
+      ++excluded;
+      continue;
+    }
+    fs::path file = matches.root / path;
+    if (!search.taken.insert(file.string()).second) continue;
+    names.add_path(path);
+    found.push_back(make_panorama(search.entry, std::move(file), pattern.loc));
+    found.back().pattern = pattern.text;
+  }
+  if (eligible == 0) {
+    log.error(pattern.loc, fmt::format("no file matches {}", in_quotes(pattern.text)),
+              why_nothing(pattern, search.entry, *glob, matches));
+    return;
+  }
+  if (excluded == eligible) {
+    log.error(pattern.loc, "every file that matches is excluded");
+  }
+  for (const UnreadableFolder& folder : matches.unreadable) {
+    log.warning(pattern.loc,
+                fmt::format("{} cannot be searched: {}", in_quotes(folder.path), folder.reason));
+  }
+}
+
+void find_files(const EntryText& entry, const fs::path& output, PanoramaNames& names,
+                std::vector<PanoramaEntry>& found, ManifestLog& log) {
+  Search search{entry, output, parse_excludes(entry, log), {}};
+  const std::size_t before = found.size();
+  for (const LocatedText& pattern : entry.files) find_pattern(pattern, search, names, found, log);
+  if (found.size() == before) return;
+  for (const Exclude& exclude : search.excludes) {
+    if (exclude.used) continue;
+    log.warning(exclude.source.loc,
+                fmt::format("{} excludes nothing", in_quotes(exclude.source.text)),
+                "patterns see the path below the first folder with a wildcard");
+  }
+}
+
+}  // namespace
+
+std::vector<PanoramaEntry> find_panoramas(const std::vector<EntryText>& entries,
+                                          const fs::path& output, ManifestLog& log) {
+  std::vector<PanoramaEntry> found;
+  PanoramaNames names;
+  for (const EntryText& entry : entries) {
+    if (entry.file)
+      find_file(entry, names, found, log);
+    else
+      find_files(entry, output, names, found, log);
+  }
+  names.assign(found, log);
+  return found;
+}
+
+}  // namespace shoal

@@ -1,0 +1,58 @@
+// What a run will do, and why: the manifest held against the store. Nothing is written here.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "batch/manifest.h"
+#include "batch/store.h"
+#include "core/result.h"
+
+namespace shoal {
+
+// How much of an item has to be done.
+enum class ItemWork {
+  none,     // up to date
+  outputs,  // its projection holds; its maps have to be written anew
+  all,
+};
+
+struct PlannedItem {
+  const PanoramaEntry* entry = nullptr;
+  ItemWork work = ItemWork::all;
+  std::string reason;               // for people: "new", "its file's content changed", "up to date"
+  std::uint64_t input_size = 0;     // bytes; 0 where the file cannot be asked
+  std::optional<InputState> input;  // of the file as it is now, where its content's hash is known
+  std::string parameters;           // as of parameter_text()
+  std::string output_hash;
+};
+
+struct PlanOptions {
+  enum class Inputs {
+    by_time,     // unchanged size and modification time stand for unchanged content
+    by_content,  // every file is hashed
+  };
+  enum class Force { no, yes };
+  Inputs inputs = Inputs::by_time;
+  Force force = Force::no;
+  std::string only;  // a glob over names and tags; empty: all
+};
+
+struct Plan {
+  std::vector<PlannedItem> items;  // the selected entries in manifest order
+  std::int64_t unselected_count = 0;
+
+  [[nodiscard]] std::int64_t count(ItemWork work) const;
+};
+
+// `store`: of an earlier run, or null. Errors: usage (a bad `only`, or one that selects nothing);
+// malformed, unreadable (the store).
+Result<Plan> make_plan(const Manifest& manifest, Store* store, const PlanOptions& options);
+
+// Size and modification time of a file, without its hash. Error: not_found, unreadable.
+Result<InputState> input_state(const std::filesystem::path& path);
+
+}  // namespace shoal

@@ -1,0 +1,21 @@
+// A projection's row in the store.
+#pragma once
+
+#include <cstdint>
+
+#include "batch/sqlite.h"
+#include "core/result.h"
+#include "transform/projector.h"
+
+namespace shoal {
+
+extern const char* const kInsertProjection;
+extern const char* const kSelectProjection;  // by the panorama's name
+
+// Runs a prepared kInsertProjection.
+Status write_projection(SqlStatement& insert, std::int64_t item, const Projection& projection);
+
+// What the current row of a kSelectProjection says. Error: malformed.
+Result<Projection> read_projection(const SqlStatement& row);
+
+}  // namespace shoal

@@ -1,0 +1,184 @@
+#include "batch/store.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "batch/store_support.h"
+#include "support/temporary_folder.h"
+
+namespace shoal {
+namespace {
+
+using test::expect_same_bits;
+using test::problems_of;
+using test::some_item;
+using test::some_projection;
+using test::TemporaryFolder;
+
+TEST(Store, GivesBackEverythingThatWasRecorded) {
+  const TemporaryFolder folder;
+  const auto path = folder / "out/deep/shoal.db";
+  const Projection projection = some_projection(1, 64);
+  const ItemRecord item = some_item("stu\"dio/nor'th \xff\xc3\xbc\n", &projection);
+  ItemRecord failed = some_item("broken", nullptr);
+  failed.state.status = ItemStatus::failed;
+  failed.state.error = "row 17 ends after 203 of 1024 pixels";
+  failed.state.outputs.clear();
+  const InputState input{std::uint64_t{1} << 35, -1234567890123456789, "content"};
+  {
+    auto store = Store::open(path, Store::Access::write);
+    ASSERT_TRUE(store.ok()) << store.error().text();
+    ASSERT_TRUE(store->record(item).ok());
+    ASSERT_TRUE(store->record(failed).ok());
+    ASSERT_TRUE(store->record_input("/library/a.exr", input).ok());
+  }
+  for (const auto access : {Store::Access::write, Store::Access::read}) {
+    auto store = Store::open(path, access);
+    ASSERT_TRUE(store.ok()) << store.error().text();
+    const auto items = store->items();
+    ASSERT_TRUE(items.ok()) << items.error().text();
+    EXPECT_EQ(*items, (std::unordered_map<std::string, ItemState>{{item.name, item.state},
+                                                                  {"broken", failed.state}}));
+    EXPECT_EQ(**store->find_item(item.name), item.state);
+    EXPECT_EQ(*store->find_item("nobody"), std::nullopt);
+    EXPECT_EQ(*store->inputs(),
+              (std::unordered_map<std::string, InputState>{{"/library/a.exr", input}}));
+
+    const auto found = store->find_projection(item.name);
+    ASSERT_TRUE(found.ok()) << found.error().text();
+    const Projection& back = found->value();
+    expect_same_bits(back.radiance, projection.radiance);
+    EXPECT_EQ(back.grid, projection.grid);
+    EXPECT_EQ(back.format, projection.format);
+    EXPECT_EQ(back.quadrature, projection.quadrature);
+    EXPECT_EQ(back.solid_angle, projection.solid_angle);
+    EXPECT_EQ(back.pixels.minimum, projection.pixels.minimum);
+    EXPECT_EQ(back.pixels.maximum, projection.pixels.maximum);
+    EXPECT_EQ(back.pixels.mean, projection.pixels.mean);
+    EXPECT_EQ(back.pixels.clamped_flux, projection.pixels.clamped_flux);
+    EXPECT_EQ(back.pixels.pixel_count, projection.pixels.pixel_count);
+    EXPECT_EQ(back.pixels.nonfinite_count, projection.pixels.nonfinite_count);
+    EXPECT_EQ(back.pixels.negative_count, projection.pixels.negative_count);
+    EXPECT_EQ(back.pixels.clamped_count, projection.pixels.clamped_count);
+    EXPECT_EQ(back.warnings, projection.warnings);
+    EXPECT_FALSE(store->find_projection("broken")->has_value());
+  }
+  EXPECT_EQ(problems_of(path), "");
+}
+
+// A picture without a single finite sample has no extremes.
+TEST(Store, KeepsInfinitiesAndNaNsOfThePixelReport) {
+  const TemporaryFolder folder;
+  Projection projection = some_projection(1, 0);
+  projection.pixels.minimum = {INFINITY, NAN, -INFINITY};
+  auto store = Store::open(folder / "s.db", Store::Access::write);
+  ASSERT_TRUE(store->record(some_item("a", &projection)).ok());
+  const auto minimum = store->find_projection("a")->value().pixels.minimum;
+  EXPECT_EQ(minimum[0], INFINITY);
+  EXPECT_TRUE(std::isnan(minimum[1]));
+  EXPECT_EQ(minimum[2], -INFINITY);
+}
+
+TEST(Store, RecordingAgainTakesThePlaceOfWhatWasThere) {
+  const TemporaryFolder folder;
+  auto store = Store::open(folder / "s.db", Store::Access::write);
+  const Projection first = some_projection(1, 2);
+  const Projection second = some_projection(2, 5);
+  ASSERT_TRUE(store->record(some_item("a", &first)).ok());
+  ASSERT_TRUE(store->record(some_item("b", &first)).ok());
+  ItemRecord again = some_item("a", &second);
+  again.state.outputs = {{"maps/a.new.exr", "map:irradiance", "new", 1}};
+  again.state.parameters = "other parameters";
+  ASSERT_TRUE(store->record(again).ok());
+  EXPECT_EQ(**store->find_item("a"), again.state);
+  EXPECT_EQ(store->find_projection("a")->value().radiance, second.radiance);
+  EXPECT_EQ(**store->find_item("b"), some_item("b", &first).state);
+
+  ItemRecord failed = some_item("a", nullptr);
+  failed.state.status = ItemStatus::failed;
+  failed.state.outputs.clear();
+  ASSERT_TRUE(store->record(failed).ok());
+  EXPECT_EQ(**store->find_item("a"), failed.state);
+  EXPECT_FALSE(store->find_projection("a")->has_value());
+  EXPECT_TRUE(store->find_projection("b")->has_value());
+}
+
+TEST(Store, MarkStaleIsCommittedAtOnceAndTouchesOnlyWhatItNames) {
+  const TemporaryFolder folder;
+  const Projection projection = some_projection(1, 2);
+  auto store = Store::open(folder / "s.db", Store::Access::write);
+  for (const auto* name : {"a", "b", "c"}) {
+    ASSERT_TRUE(store->record(some_item(name, &projection)).ok());
+  }
+  const std::vector<std::string> names = {"a", "c", "not yet recorded"};
+  ASSERT_TRUE(store->mark_stale(names).ok());
+  auto other = Store::open(folder / "s.db", Store::Access::read);
+  const auto items = *other->items();
+  ASSERT_EQ(items.size(), 3u);
+  EXPECT_EQ(items.at("a").status, ItemStatus::stale);
+  EXPECT_EQ(items.at("b").status, ItemStatus::done);
+  EXPECT_EQ(items.at("c").status, ItemStatus::stale);
+}
+
+TEST(Store, WritesAreSeenByOthersAfterFlush) {
+  const TemporaryFolder folder;
+  const Projection projection = some_projection(1, 2);
+  auto store = Store::open(folder / "s.db", Store::Access::write);
+  auto other = Store::open(folder / "s.db", Store::Access::read);
+  ASSERT_TRUE(store->record(some_item("a", &projection)).ok());
+  EXPECT_TRUE(other->items()->empty());
+  ASSERT_TRUE(store->flush().ok());
+  EXPECT_EQ(other->items()->size(), 1u);
+}
+
+// The delay before finished work is safe is bounded without anybody calling flush().
+TEST(Store, AWriteASecondAfterTheLastCommitCommits) {
+  const TemporaryFolder folder;
+  const Projection projection = some_projection(1, 2);
+  auto store = Store::open(folder / "s.db", Store::Access::write);
+  auto other = Store::open(folder / "s.db", Store::Access::read);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1050));
+  ASSERT_TRUE(store->record(some_item("a", &projection)).ok());
+  EXPECT_EQ(other->items()->size(), 1u);
+}
+
+TEST(Store, RunOutputsAndPropertiesAreReplaced) {
+  const TemporaryFolder folder;
+  const Projection projection = some_projection(1, 2);
+  auto store = Store::open(folder / "s.db", Store::Access::write);
+  const std::vector<OutputRecord> tables = {{"coefficients.csv", "table:csv", "h1", 10},
+                                            {"coefficients.npy", "table:npy", "h2", 20}};
+  ASSERT_TRUE(store->record(some_item("a", &projection)).ok());
+  ASSERT_TRUE(store->set_run_outputs(tables).ok());
+  EXPECT_EQ(*store->run_outputs(), tables);
+  ASSERT_TRUE(store->set_run_outputs({}).ok());
+  EXPECT_TRUE(store->run_outputs()->empty());
+  EXPECT_EQ((*store->find_item("a"))->outputs.size(), 2u);
+
+  EXPECT_EQ(*store->property("tables"), "");
+  ASSERT_TRUE(store->set_property("tables", "x").ok());
+  ASSERT_TRUE(store->set_property("tables", "y").ok());
+  EXPECT_EQ(*store->property("tables"), "y");
+}
+
+TEST(Store, GlobsAreThoseOfTheLastRun) {
+  const TemporaryFolder folder;
+  auto store = Store::open(folder / "s.db", Store::Access::write);
+  std::vector<GlobExpansion> globs = {
+      {"*.hdr", {"b.hdr", "a.hdr"}}, {"*.exr", {}}, {"*.hdr", {"c.hdr"}}};
+  ASSERT_TRUE(store->set_globs(globs).ok());
+  EXPECT_EQ(*store->globs(), globs);
+  globs.pop_back();
+  globs[1].files = {"new.exr"};
+  ASSERT_TRUE(store->set_globs(globs).ok());
+  EXPECT_EQ(*store->globs(), globs);
+  ASSERT_TRUE(store->set_globs({}).ok());
+  EXPECT_TRUE(store->globs()->empty());
+  EXPECT_EQ(problems_of(folder / "s.db"), "");
+}
+
+}  // namespace
+}  // namespace shoal
