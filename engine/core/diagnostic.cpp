@@ -6,7 +6,18 @@
 namespace shoal {
 namespace {
 
-constexpr int kMaxColumns = 100;
+constexpr std::size_t kMaxColumns = 100;
+
+// Whether a byte goes on with a UTF-8 character that began before it.
+bool is_continuation(char byte) { return (static_cast<unsigned char>(byte) & 0xC0) == 0x80; }
+
+// The first byte of a long line to be shown, so that the caret is in view.
+std::size_t first_shown(std::string_view line, std::size_t caret) {
+  if (line.size() <= kMaxColumns || caret <= kMaxColumns / 2) return 0;
+  std::size_t first = std::min(caret - kMaxColumns / 2, line.size() - kMaxColumns);
+  while (first < line.size() && is_continuation(line[first])) ++first;
+  return first;
+}
 
 // Optimal string alignment distance: insertions, deletions, substitutions, neighbours swapped.
 int edit_distance(std::string_view a, std::string_view b) {
@@ -43,14 +54,17 @@ std::string format_diagnostic(const Diagnostic& diagnostic, std::string_view lin
     if (!diagnostic.hint.empty()) text += "    " + diagnostic.hint + "\n";
     return text;
   }
-  int caret = std::min(diagnostic.loc.column - 1, static_cast<int>(line.size()));
-  const int cut =
-      std::max(0, std::min(caret - kMaxColumns / 2, static_cast<int>(line.size()) - kMaxColumns));
-  line = line.substr(cut, kMaxColumns);
+  std::size_t caret = std::min(static_cast<std::size_t>(diagnostic.loc.column - 1), line.size());
+  const std::size_t cut = first_shown(line, caret);
+  std::size_t shown = std::min(line.size() - cut, kMaxColumns);
+  while (cut + shown < line.size() && is_continuation(line[cut + shown])) --shown;
+  line = line.substr(cut, shown);
   caret -= cut;
   text += "    " + std::string(line) + "\n    ";
   // Tabs stay tabs, so that the caret stands under its column however wide they are shown.
-  for (int i = 0; i < caret; ++i) text += line[i] == '\t' ? '\t' : ' ';
+  for (std::size_t i = 0; i < caret; ++i) {
+    if (!is_continuation(line[i])) text += line[i] == '\t' ? '\t' : ' ';
+  }
   text += "^";
   if (!diagnostic.hint.empty()) text += " " + diagnostic.hint;
   return text + "\n";

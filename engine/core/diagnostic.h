@@ -9,7 +9,7 @@
 
 namespace shoal {
 
-// A place in a text file. Lines and columns count from 1; 0 means unknown.
+// A place in a text file. Lines and columns count from 1, columns in bytes; 0 means unknown.
 struct SourceLoc {
   std::string file;
   int line = 0;

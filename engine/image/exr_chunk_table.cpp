@@ -20,8 +20,8 @@ std::uint64_t search_chunk(const ExrContext& context, const ExrPart& part, int c
 }  // namespace
 
 Result<ExrChunkTable> ExrChunkTable::read(const ExrContext& context, const ExrPart& part) {
-  const auto count = static_cast<std::size_t>((part.data.height() + part.chunk_rows - 1) /
-                                              part.chunk_rows);
+  const auto count =
+      static_cast<std::size_t>((part.data.height() + part.chunk_rows - 1) / part.chunk_rows);
   std::vector<std::uint64_t> offsets(count);
   SHOAL_RETURN_IF_ERROR(context.file().read_exactly(context.table(part.index).offset,
                                                     std::as_writable_bytes(std::span(offsets))));

@@ -1,10 +1,12 @@
 #include "image/exr_context.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstring>
 #include <span>
+#include <string_view>
 
 #include "core/aligned_buffer.h"
 
@@ -42,8 +44,21 @@ std::int64_t file_size(exr_const_context_t, void* user_data) {
 
 constexpr std::uint32_t kMultiPartFlag = 0x1000;
 
-// Walks over the attributes of headers that the library has already found well-formed, only to
-// learn where they end: the library (3.1) does not tell where its chunk tables lie.
+// The attributes that say where the pixels are. The library (3.1) makes up what is missing (a
+// window of 64 x 64, ZIP for a compression that it does not know), and its C and C++ halves
+// disagree about attributes that come twice; so each must be there once, with its own type.
+struct RequiredAttribute {
+  std::string_view name;
+  std::string_view type;
+};
+constexpr std::array<RequiredAttribute, 4> kRequired = {{{"channels", "chlist"},
+                                                         {"compression", "compression"},
+                                                         {"dataWindow", "box2i"},
+                                                         {"displayWindow", "box2i"}}};
+
+// Walks over the attributes of headers that the library has already found well-formed, to check
+// those and to learn where the headers end: the library (3.1) does not tell where its chunk tables
+// lie.
 class HeaderWalker {
  public:
   explicit HeaderWalker(const InputFile& file) : file_(file), window_(kWindow) {}
@@ -59,27 +74,32 @@ class HeaderWalker {
     return value;
   }
 
-  // Skips one header and the zero byte that ends it; false when it has no attribute at all.
-  // The library (3.1) takes a compression that it does not know for ZIP: that is refused here.
-  Result<bool> skip_header() {
+  // Walks over one header and the zero byte that ends it; false when it has no attribute at all.
+  // Errors: malformed (required attributes), unsupported (compression).
+  Result<bool> walk_header() {
+    std::array<int, kRequired.size()> seen{};
     for (bool any = false;; any = true) {
       SHOAL_ASSIGN_OR_RETURN(name, read_string());
-      if (name.empty()) return any;
+      if (name.empty() && !any) return false;
+      if (name.empty()) break;
       SHOAL_ASSIGN_OR_RETURN(type, read_string());
       SHOAL_ASSIGN_OR_RETURN(size, read_u32());
       const std::uint64_t value = position_;
-      if (name == "compression" && type == "compression") {
-        SHOAL_ASSIGN_OR_RETURN(number, read_byte());
-        const int compression = std::to_integer<int>(number);
-        if (compression >= EXR_COMPRESSION_LAST_TYPE) {
-          return Error{ErrorCode::unsupported,
-                       "is compressed by method " + std::to_string(compression) +
-                           ", which the installed OpenEXR does not know",
-                       file_.path(), "write it with ZIP or PIZ"};
-        }
+      for (std::size_t i = 0; i < kRequired.size(); ++i) {
+        if (name != kRequired[i].name) continue;
+        seen[i] += type == kRequired[i].type ? 1 : 2;  // 2 is wrong, as two of them are
       }
+      if (name == "compression") SHOAL_RETURN_IF_ERROR(check_compression());
       position_ = value + size;
     }
+    for (std::size_t i = 0; i < kRequired.size(); ++i) {
+      if (seen[i] == 1) continue;
+      return Error{ErrorCode::malformed,
+                   "its header needs one attribute " + std::string(kRequired[i].name) +
+                       " of the type " + std::string(kRequired[i].type),
+                   file_.path(), "the file is damaged; copy it again"};
+    }
+    return true;
   }
 
   [[nodiscard]] std::uint64_t position() const { return position_; }
@@ -87,6 +107,16 @@ class HeaderWalker {
 
  private:
   static constexpr std::size_t kWindow = 4096;
+
+  Status check_compression() {
+    SHOAL_ASSIGN_OR_RETURN(number, read_byte());
+    const int compression = std::to_integer<int>(number);
+    if (compression < EXR_COMPRESSION_LAST_TYPE) return {};
+    return Error{ErrorCode::unsupported,
+                 "is compressed by method " + std::to_string(compression) +
+                     ", which the installed OpenEXR does not know",
+                 file_.path(), "write it with ZIP or PIZ"};
+  }
 
   Result<std::byte> read_byte() {
     if (position_ < begin_ || position_ >= begin_ + filled_) {
@@ -171,7 +201,7 @@ Status ExrContext::find_tables() {
   SHOAL_ASSIGN_OR_RETURN(version, walker.read_u32());
   multi_part_ = (version & kMultiPartFlag) != 0;
   for (bool more = true; more;) {
-    SHOAL_ASSIGN_OR_RETURN(any, walker.skip_header());
+    SHOAL_ASSIGN_OR_RETURN(any, walker.walk_header());
     more = any && multi_part_;
   }
 

@@ -9,8 +9,8 @@ namespace shoal {
 namespace {
 
 // The C library of OpenEXR 3.1 does not implement DWAA and DWAB.
-constexpr bool kCoreDecodesDwa =
-    OPENEXR_VERSION_MAJOR > 3 || (OPENEXR_VERSION_MAJOR == 3 && OPENEXR_VERSION_MINOR >= 2);
+constexpr bool kCoreDecodesDwa = OPENEXR_VERSION_MAJOR > 3 ||
+                                 (OPENEXR_VERSION_MAJOR == 3 && OPENEXR_VERSION_MINOR >= 2);
 
 // Takes the place of the library's decompression; `decoding_user_data` is our inflater.
 exr_result_t inflate(exr_decode_pipeline_t* pipeline) {
@@ -87,9 +87,8 @@ Status ExrCoreReader::decode_chunk(const exr_chunk_info_t& info, int row, int co
   // A chunk that did not become smaller is stored as it is, in every compression; the library (3.1)
   // would decompress it nevertheless if it is B44.
   pipeline_.decompress_fn = stored_as_is ? nullptr : decompress_;
-  return context.run(where, [&] {
-    return exr_decoding_run(context.handle(), picture().part.index, &pipeline_);
-  });
+  return context.run(
+      where, [&] { return exr_decoding_run(context.handle(), picture().part.index, &pipeline_); });
 }
 
 // Makes the pipeline decode the chunk `info` to `row` and `column` of our rows.
@@ -98,7 +97,7 @@ exr_result_t ExrCoreReader::aim_pipeline(const exr_chunk_info_t& info, int row, 
   const int part = picture().part.index;
   const bool is_first = pipeline_.context == nullptr;
   const exr_result_t result = is_first ? exr_decoding_initialize(context, part, &info, &pipeline_)
-                                 : exr_decoding_update(context, part, &info, &pipeline_);
+                                       : exr_decoding_update(context, part, &info, &pipeline_);
   if (result != EXR_ERR_SUCCESS) return result;
   for (int c = 0; c < picture().colour.channel_count(); ++c) {
     // The library keeps the channels in the order of the header.

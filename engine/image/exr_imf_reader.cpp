@@ -2,6 +2,7 @@
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
 #include <ImfIO.h>
 #include <ImfInputPart.h>
 #include <ImfMultiPartInputFile.h>
@@ -23,8 +24,7 @@ constexpr int kInThisThread = 0;  // the library's thread count: the caller's th
 // Reads through the file that is open already, with a position of its own.
 class FileStream final : public Imf::IStream {
  public:
-  explicit FileStream(const InputFile& file)
-      : Imf::IStream(file.path().c_str()), file_(file) {}
+  explicit FileStream(const InputFile& file) : Imf::IStream(file.path().c_str()), file_(file) {}
 
   bool read(char bytes[], int count) override {
     const std::span<char> out(bytes, static_cast<std::size_t>(count));
@@ -49,7 +49,8 @@ Status at_border(const std::string& where, Call&& call) {
     call();
     return {};
   } catch (const std::exception& exception) {
-    return Error{ErrorCode::malformed, exception.what(), where, "the file is damaged; copy it again"};
+    return Error{ErrorCode::malformed, exception.what(), where,
+                 "the file is damaged; copy it again"};
   }
 }
 
@@ -66,6 +67,20 @@ T* base_for(void* at, std::int64_t x, std::ptrdiff_t x_stride, std::int64_t y,
   return reinterpret_cast<T*>(reinterpret_cast<std::intptr_t>(at) - x * x_stride - y * y_stride);
 }
 
+// The header has been read twice, by different code: what our memory is laid out by must be the
+// same.
+void require_same(const Imf::Header& header, const ExrPart& part) {
+  const Imath::Box2i& window = header.dataWindow();
+  bool same = window.min.x == part.data.x_begin && window.min.y == part.data.y_begin &&
+              window.max.x == part.data.x_end - 1 && window.max.y == part.data.y_end - 1;
+  for (const ExrChannel& channel : part.channels) {
+    const Imf::Channel* found = header.channels().findChannel(channel.name);
+    same = same && found && found->type == pixel_type(channel.type) &&
+           found->xSampling == channel.x_sampling && found->ySampling == channel.y_sampling;
+  }
+  if (!same) throw std::runtime_error("its header contradicts itself");
+}
+
 class ImfReader final : public ExrBandReader {
  public:
   explicit ImfReader(std::shared_ptr<const ExrPicture> picture_in)
@@ -73,7 +88,9 @@ class ImfReader final : public ExrBandReader {
         rows_(picture()),
         stream_(picture().context->file()),
         file_(stream_, kInThisThread),
-        part_(file_, picture().part.index) {}
+        part_(file_, picture().part.index) {
+    require_same(part_.header(), picture().part);
+  }
 
  private:
   Status decode(const ExrBand& band, RowBand& rows) override {
@@ -86,10 +103,10 @@ class ImfReader final : public ExrBandReader {
         const auto x_stride = static_cast<std::ptrdiff_t>(sample_size(rows.channels[c].type));
         char* base = base_for<char>(rows_.sample(c, first_row), data.x_begin, x_stride, first_line,
                                     rows_.row_stride(c));
-        slices.insert(picture().part.channels[picture().colour.channels[c]].name,
-                      Imf::Slice(pixel_type(rows.channels[c].type), base,
-                                 static_cast<std::size_t>(x_stride),
-                                 static_cast<std::size_t>(rows_.row_stride(c))));
+        slices.insert(
+            picture().part.channels[picture().colour.channels[c]].name,
+            Imf::Slice(pixel_type(rows.channels[c].type), base, static_cast<std::size_t>(x_stride),
+                       static_cast<std::size_t>(rows_.row_stride(c))));
       }
       part_.setFrameBuffer(slices);
       part_.readPixels(first_line, first_line + band.row_end - band.row_begin - 1);
@@ -112,6 +129,7 @@ class LuminanceChromaReader final : public ExrBandReader {
         rows_(picture()),
         stream_(picture().context->file()),
         file_(stream_, picture().layer, kInThisThread) {
+    require_same(file_.header(), picture().part);
     pixels_.resize_zeroed(static_cast<std::size_t>(layout().data_width) *
                           static_cast<std::size_t>(layout().rows_per_band()) * sizeof(Imf::Rgba));
   }

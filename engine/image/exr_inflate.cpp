@@ -14,9 +14,8 @@ Expansion ExrInflater::expand(std::span<const std::byte> packed, std::span<std::
     if (expand_exr_runs(packed, shuffled_.span()) != Expansion::done) return Expansion::damaged;
   } else {
     // Without a place to tell the size to, libdeflate insists on filling the output exactly.
-    const auto result =
-        libdeflate_zlib_decompress(inflater_.get(), packed.data(), packed.size(),
-                                   shuffled_.data(), shuffled_.size(), nullptr);
+    const auto result = libdeflate_zlib_decompress(inflater_.get(), packed.data(), packed.size(),
+                                                   shuffled_.data(), shuffled_.size(), nullptr);
     if (result != LIBDEFLATE_SUCCESS) return Expansion::damaged;
   }
   codecs_.undo_predictor_and_split(shuffled_.data(), out.size(), out.data());

@@ -8,7 +8,8 @@
 namespace shoal {
 namespace {
 
-// A chunk is decoded whole. 256 MiB is a chunk of DWAB (256 lines) 32768 pixels wide with 8 channels.
+// A chunk is decoded whole. 256 MiB is a chunk of DWAB (256 lines) 32768 pixels wide with 8
+// channels.
 constexpr std::uint64_t kMaxChunkBytes = std::uint64_t{1} << 28;
 constexpr std::uint64_t kMaxBandBytes = std::uint64_t{1} << 26;  // of several chunks
 // Bands of files that store every line by itself: long enough that a read and a dispatch cost
@@ -25,20 +26,28 @@ std::optional<std::uint64_t> largest_expansion(exr_compression_t compression) {
   constexpr std::uint64_t kDeflate = 1032;  // zlib's documented bound
   constexpr std::uint64_t kRunLength = 64;  // two bytes stand for at most 128
   switch (compression) {
-    case EXR_COMPRESSION_NONE: return 1;
-    case EXR_COMPRESSION_RLE: return kRunLength;
+    case EXR_COMPRESSION_NONE:
+      return 1;
+    case EXR_COMPRESSION_RLE:
+      return kRunLength;
     case EXR_COMPRESSION_ZIPS:
-    case EXR_COMPRESSION_ZIP: return kDeflate;
-    case EXR_COMPRESSION_PXR24: return kDeflate * 4 / 3;  // a float is stored in three bytes
+    case EXR_COMPRESSION_ZIP:
+      return kDeflate;
+    case EXR_COMPRESSION_PXR24:
+      return kDeflate * 4 / 3;  // a float is stored in three bytes
     // 256 equal 16-bit values become two codes of one bit at least and a count of eight: 410.
-    case EXR_COMPRESSION_PIZ: return 512;
+    case EXR_COMPRESSION_PIZ:
+      return 512;
     // A flat block of 16 halves (32 bytes) takes 3 bytes (B44A), any other 14.
     case EXR_COMPRESSION_B44:
-    case EXR_COMPRESSION_B44A: return 11;
+    case EXR_COMPRESSION_B44A:
+      return 11;
     // Runs within deflate is the most of its schemes.
     case EXR_COMPRESSION_DWAA:
-    case EXR_COMPRESSION_DWAB: return kDeflate * kRunLength;
-    default: return std::nullopt;
+    case EXR_COMPRESSION_DWAB:
+      return kDeflate * kRunLength;
+    default:
+      return std::nullopt;
   }
 }
 
@@ -70,10 +79,10 @@ std::uint64_t decompressed_bytes(const ExrPart& part) {
 
 Status check_against_file(const ExrContext& context, const ExrPart& part) {
   const std::string& path = context.file().path();
-  const auto rows = static_cast<std::uint64_t>(
-      divide_up<std::int64_t>(part.data.height(), part.chunk_rows));
-  const auto columns = static_cast<std::uint64_t>(
-      divide_up<std::int64_t>(part.data.width(), part.chunk_columns));
+  const auto rows =
+      static_cast<std::uint64_t>(divide_up<std::int64_t>(part.data.height(), part.chunk_rows));
+  const auto columns =
+      static_cast<std::uint64_t>(divide_up<std::int64_t>(part.data.width(), part.chunk_columns));
   if (context.table(part.index).count < rows * columns) {
     return Error{ErrorCode::malformed,
                  "its table has " + std::to_string(context.table(part.index).count) +
@@ -98,8 +107,8 @@ Status check_chunk_bytes(const ExrPart& part, const ExrColour& colour, const std
   const std::uint64_t columns =
       std::max<std::uint64_t>(part.chunk_columns, part.declared_tile_width);
   if (rows > kMaxSide || columns > kMaxSide) {
-    return too_large(path, "has tiles of " + std::to_string(columns) + " x " +
-                               std::to_string(rows) + " pixels");
+    return too_large(
+        path, "has tiles of " + std::to_string(columns) + " x " + std::to_string(rows) + " pixels");
   }
   std::uint64_t row_of_chunks = 0;  // the colour only
   for (int i = 0; i < colour.channel_count(); ++i) {
@@ -120,10 +129,9 @@ void place(const ExrPart& part, ExrLayout& layout) {
   layout.data_width = static_cast<int>(part.data.width());
   layout.data_height = static_cast<int>(part.data.height());
 
-  const ExrWindow shared{std::max(picture.x_begin, part.data.x_begin),
-                         std::max(picture.y_begin, part.data.y_begin),
-                         std::min(picture.x_end, part.data.x_end),
-                         std::min(picture.y_end, part.data.y_end)};
+  const ExrWindow shared{
+      std::max(picture.x_begin, part.data.x_begin), std::max(picture.y_begin, part.data.y_begin),
+      std::min(picture.x_end, part.data.x_end), std::min(picture.y_end, part.data.y_end)};
   if (shared.width() <= 0 || shared.height() <= 0) return;  // all black
   layout.data_x = part.data.x_begin - picture.x_begin;
   layout.data_y = part.data.y_begin - picture.y_begin;
@@ -133,11 +141,11 @@ void place(const ExrPart& part, ExrLayout& layout) {
   layout.visible_y_end = shared.y_end - picture.y_begin;
 }
 
-void cut_into_bands(const ExrPart& part, int rows_wanted,
-                    ExrLayout& layout) {
+void cut_into_bands(const ExrPart& part, int rows_wanted, ExrLayout& layout) {
   layout.chunk_rows = part.chunk_rows;
   const int by_default = part.chunk_rows == 1 ? kDefaultRowsOfLineChunks : 1;
-  const std::uint64_t row_bytes = part.pixel_bytes() * static_cast<std::uint64_t>(layout.data_width);
+  const std::uint64_t row_bytes =
+      part.pixel_bytes() * static_cast<std::uint64_t>(layout.data_width);
   const auto at_most = static_cast<int>(std::clamp<std::uint64_t>(
       kMaxBandBytes / (row_bytes * static_cast<std::uint64_t>(part.chunk_rows)), 1, kMaxSide));
   const int rows = rows_wanted > 0 ? std::min(rows_wanted, kMaxSide) : by_default;

@@ -56,9 +56,7 @@ struct ExrLayout {
   [[nodiscard]] ExrBand band(int index) const;
 
   // Every row of the data window reaches over the whole width of the picture.
-  [[nodiscard]] bool covers_width() const {
-    return data_x <= 0 && data_x + data_width >= width;
-  }
+  [[nodiscard]] bool covers_width() const { return data_x <= 0 && data_x + data_width >= width; }
   [[nodiscard]] double covered_fraction() const;
 
   // Rows of chunk row `chunk`, and its first row in the picture's coordinates (may be negative).

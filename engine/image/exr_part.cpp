@@ -24,8 +24,8 @@ Status read_windows(const ExrContext& context, ExrPart& part) {
   const std::string& where = context.file().path();
   exr_attr_box2i_t data{};
   exr_attr_box2i_t display{};
-  SHOAL_RETURN_IF_ERROR(context.run(
-      where, [&] { return exr_get_data_window(context.handle(), part.index, &data); }));
+  SHOAL_RETURN_IF_ERROR(
+      context.run(where, [&] { return exr_get_data_window(context.handle(), part.index, &data); }));
   SHOAL_RETURN_IF_ERROR(context.run(
       where, [&] { return exr_get_display_window(context.handle(), part.index, &display); }));
   part.data = half_open(data);
@@ -63,9 +63,8 @@ Status read_chunk_size(const ExrContext& context, ExrPart& part) {
     part.chunk_rows = static_cast<int>(std::min<std::int64_t>(height, part.data.height()));
   } else {
     std::int32_t lines = 1;
-    SHOAL_RETURN_IF_ERROR(context.run(where, [&] {
-      return exr_get_scanlines_per_chunk(context.handle(), part.index, &lines);
-    }));
+    SHOAL_RETURN_IF_ERROR(context.run(
+        where, [&] { return exr_get_scanlines_per_chunk(context.handle(), part.index, &lines); }));
     part.chunk_columns = static_cast<int>(part.data.width());
     part.chunk_rows = lines;
   }
@@ -93,9 +92,8 @@ Result<ExrPart> read_part(const ExrContext& context, int index) {
   ExrPart part;
   part.index = index;
   exr_storage_t storage{};
-  SHOAL_RETURN_IF_ERROR(context.run(context.file().path(), [&] {
-    return exr_get_storage(context.handle(), index, &storage);
-  }));
+  SHOAL_RETURN_IF_ERROR(context.run(
+      context.file().path(), [&] { return exr_get_storage(context.handle(), index, &storage); }));
   part.storage = storage_of(storage);
   SHOAL_RETURN_IF_ERROR(context.run(context.file().path(), [&] {
     return exr_get_compression(context.handle(), index, &part.compression);

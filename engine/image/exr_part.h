@@ -44,8 +44,8 @@ struct ExrPart {
   ExrWindow data;
   ExrWindow display;
   std::vector<ExrChannel> channels;  // in the file's order, by name
-  int chunk_rows = 1;     // lines of a chunk, or the height of a tile of level 0
-  int chunk_columns = 0;  // width of a chunk or of a tile of level 0
+  int chunk_rows = 1;                // lines of a chunk, or the height of a tile of level 0
+  int chunk_columns = 0;             // width of a chunk or of a tile of level 0
   // Of a tile as the header has it, before it is clipped to the data window.
   std::uint32_t declared_tile_width = 0;
   std::uint32_t declared_tile_height = 0;

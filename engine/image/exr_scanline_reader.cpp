@@ -135,8 +135,8 @@ Result<ExrScanlineReader::Lines> ExrScanlineReader::expand(const ExrBand& band) 
     } else if (picture().part.compression == EXR_COMPRESSION_NONE) {
       return damaged(chunk, "are cut off");
     } else if (inflater_.expand(packed, out) != Expansion::done) {
-      return damaged(chunk, "do not decompress (" +
-                                exr_compression_name(picture().part.compression) + ")");
+      return damaged(
+          chunk, "do not decompress (" + exr_compression_name(picture().part.compression) + ")");
     }
   }
   return Lines{expanded_.data(), static_cast<std::ptrdiff_t>(line_bytes_)};

@@ -38,7 +38,7 @@ class ExrScanlineReader final : public ExrBandReader {
   [[nodiscard]] std::size_t expanded_size(int chunk) const;
   [[nodiscard]] Error damaged(int chunk, const std::string& what) const;
 
-  std::size_t line_bytes_ = 0;                           // of all channels
+  std::size_t line_bytes_ = 0;                          // of all channels
   std::array<std::ptrdiff_t, kMaxChannels> in_line_{};  // where a channel begins in a line
   ExrInflater inflater_;
   AlignedBuffer<std::byte> fetched_;

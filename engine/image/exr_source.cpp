@@ -16,7 +16,7 @@ namespace shoal {
 namespace {
 
 // x, y of red, green, blue and white (ITU-R BT.709).
-constexpr std::array<float, 8> kRec709 = {0.64f, 0.33f, 0.30f, 0.60f,
+constexpr std::array<float, 8> kRec709 = {0.64f, 0.33f, 0.30f,   0.60f,
                                           0.15f, 0.06f, 0.3127f, 0.3290f};
 
 bool is_rec709(const exr_attr_chromaticities_t& c) {
@@ -112,8 +112,8 @@ Result<std::unique_ptr<PanoramaSource>> open_exr(const std::filesystem::path& pa
   SHOAL_ASSIGN_OR_RETURN(parts, read_exr_parts(*context));
   SHOAL_ASSIGN_OR_RETURN(selection, select_exr_colour(parts, options, context->file().path()));
   const ExrPart& part = parts[selection.part];
-  SHOAL_ASSIGN_OR_RETURN(
-      layout, lay_out_exr(*context, part, selection.colour, options.rows_per_band));
+  SHOAL_ASSIGN_OR_RETURN(layout,
+                         lay_out_exr(*context, part, selection.colour, options.rows_per_band));
   ExrChunkTable chunks;
   if (ExrScanlineReader::can_read(part, selection.colour)) {
     SHOAL_ASSIGN_OR_RETURN(table, ExrChunkTable::read(*context, part));

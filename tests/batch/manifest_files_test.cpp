@@ -69,19 +69,44 @@ panoramas:
   - {files: "lib/*", exclude: "*.hdr"}
   - {files: "lib/**", exclude: "old/**"}
 )"),
-            R"()");
+            R"(m.yaml:3:12: error: no file matches "*.hdr"
+      - files: "*.hdr"
+               ^ in folders below there are some: "**/*.hdr"
+m.yaml:4:12: error: no file matches "lib/*.exr"
+      - files: "lib/*.exr"
+               ^
+m.yaml:5:12: error: no file matches "nowhere/*.hdr"
+      - files: "nowhere/*.hdr"
+               ^ nowhere/: No such file or directory
+m.yaml:6:12: error: a [ has no closing ]
+      - files: "lib/[a.hdr"
+               ^ write \[ for the character itself
+m.yaml:7:13: error: every file that matches is excluded
+      - {files: "lib/*", exclude: "*.hdr"}
+                ^
+m.yaml:8:32: warning: "old/**" excludes nothing
+      - {files: "lib/**", exclude: "old/**"}
+                                   ^ patterns see the path below the first folder with a wildcard
+)");
 }
 
 TEST_F(ManifestFiles, SameName) {
   touch({"one/p.hdr", "two/p.hdr", "one/q.hdr", "two/q.hdr", "a.hdr", "b.hdr"});
-  EXPECT_EQ(messages(R"(shoal: 1
+  EXPECT_EQ(
+      messages(R"(shoal: 1
 panoramas:
   - files: "one/*.hdr"
   - files: "two/*.hdr"
   - {file: a.hdr, name: x}
   - {file: b.hdr, name: x}
 )"),
-            R"()");
+      R"(m.yaml:4:12: error: two panoramas are named "p.hdr": "one/p.hdr" and "two/p.hdr", and 1 more like it
+      - files: "two/*.hdr"
+               ^ the first is of m.yaml:3:12; exclude one, or give it a name
+m.yaml:6:25: error: two panoramas are named "x": "a.hdr" and "b.hdr"
+      - {file: b.hdr, name: x}
+                            ^ the first is of m.yaml:5:5; exclude one, or give it a name
+)");
 }
 
 TEST_F(ManifestFiles, SameFile) {
@@ -91,7 +116,10 @@ panoramas:
   - files: "*.hdr"
   - file: a.hdr
 )"),
-            R"()");
+            R"(m.yaml:4:5: error: "a.hdr" is taken twice
+      - file: a.hdr
+        ^ the first is of m.yaml:3:12; exclude one, or give it a name
+)");
 }
 
 TEST_F(ManifestFiles, UnsafeNames) {
@@ -104,7 +132,22 @@ panoramas:
   - {file: a.hdr, name: "a\tb"}
   - {file: a.hdr, name: ""}
 )"),
-            R"()");
+            R"(m.yaml:3:25: error: the name "../a" leads out of the output folder
+      - {file: a.hdr, name: ../a}
+                            ^
+m.yaml:4:25: error: the name "/a" begins with a slash
+      - {file: a.hdr, name: /a}
+                            ^
+m.yaml:5:25: error: the name "b//a" has an empty part
+      - {file: a.hdr, name: b//a}
+                            ^
+m.yaml:6:25: error: the name "a\x09b" holds control characters
+      - {file: a.hdr, name: "a\tb"}
+                            ^
+m.yaml:7:25: error: the name "" has an empty part
+      - {file: a.hdr, name: ""}
+                            ^
+)");
 }
 
 TEST_F(ManifestFiles, Maps) {
@@ -120,17 +163,48 @@ maps:
   - {kind: radiance, format: hdr, type: float, faces: files, exposure: 1}
   - {kind: radiance, size: [0, 1.5], suffix: x}
 )"),
-            R"()");
+            R"(m.yaml:5:5: error: two maps would be written to "maps/NAME.irradiance.exr"
+      - {kind: irradiance, size: [64, 32]}
+        ^ give one a suffix; the first is on line 4
+m.yaml:6:5: error: a map needs its kind
+      - {size: [64, 32]}
+        ^ kind: irradiance, radiance or irradiance_over_pi
+m.yaml:7:28: error: size must be a list of two: width and height, not "32"
+      - {kind: radiance, size: 32}
+                               ^
+m.yaml:8:42: error: size must be a whole number from 1 to 4096, not a list
+      - {kind: radiance, layout: cube, size: [64, 32], suffix: a.b}
+                                             ^
+m.yaml:8:60: error: "a.b" cannot be part of a file's name here
+      - {kind: radiance, layout: cube, size: [64, 32], suffix: a.b}
+                                                               ^ use letters, digits, - and _
+m.yaml:9:35: error: type is for format: exr only
+      - {kind: radiance, format: hdr, type: float, faces: files, exposure: 1}
+                                      ^ leave it out
+m.yaml:9:48: error: faces is for layout: cube only
+      - {kind: radiance, format: hdr, type: float, faces: files, exposure: 1}
+                                                   ^ leave it out
+m.yaml:9:62: error: exposure is for format: png only
+      - {kind: radiance, format: hdr, type: float, faces: files, exposure: 1}
+                                                                 ^ leave it out
+m.yaml:10:29: error: an item of size must be a whole number from 1 to 16384, not "0"
+      - {kind: radiance, size: [0, 1.5], suffix: x}
+                                ^
+)");
 }
 
 TEST_F(ManifestFiles, MapsOfTwoPanoramas) {
   touch({"a.hdr", "a.dark.hdr"});
-  EXPECT_EQ(messages(R"(shoal: 1
+  EXPECT_EQ(
+      messages(R"(shoal: 1
 panoramas: [{file: a.hdr}, {file: a.dark.hdr}]
 variants: {dark: {exposure: -1}, radiance: {}}
 maps: [{kind: radiance}, {kind: radiance, suffix: radiance}]
 )"),
-            R"()");
+      R"(m.yaml:2:28: error: maps of the panoramas "a" and "a.dark" would both be written to "maps/a.dark.radiance.radiance.exr"
+    panoramas: [{file: a.hdr}, {file: a.dark.hdr}]
+                               ^ give one of the panoramas another name
+)");
 }
 
 TEST_F(ManifestFiles, NpyOfTwoDegrees) {
@@ -140,7 +214,10 @@ defaults: {degree: 2}
 panoramas: [{file: a.hdr}, {file: b.hdr, degree: 3}]
 tables: [csv, npy]
 )"),
-            R"()");
+            R"(m.yaml:4:9: error: an npy table has one degree, but "a" has 2 and "b" has 3
+    tables: [csv, npy]
+            ^ leave npy out, or use one degree
+)");
 }
 
 }  // namespace

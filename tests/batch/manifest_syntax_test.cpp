@@ -123,7 +123,11 @@ TEST_F(ManifestSyntax, Version) {
 
 TEST_F(ManifestSyntax, NoVersion) {
   touch({"a.hdr"});
-  EXPECT_EQ(messages("panoramas: [{file: a.hdr}]\n"), R"()");
+  EXPECT_EQ(messages("panoramas: [{file: a.hdr}]\n"),
+            R"(m.yaml:1:1: error: this manifest does not say its version
+    panoramas: [{file: a.hdr}]
+    ^ begin it with "shoal: 1"
+)");
 }
 
 TEST_F(ManifestSyntax, NoPanoramas) {
@@ -139,7 +143,10 @@ TEST_F(ManifestSyntax, KeyWithoutBlank) {
 panoramas: [{file: a.hdr}]
 output:there
 )"),
-            R"()");
+            R"(m.yaml:3:1: error: unknown key "output:there" in the manifest's top level
+    output:there
+    ^ put a blank after the colon
+)");
 }
 
 TEST_F(ManifestSyntax, KeyGivenTwice) {
@@ -150,7 +157,10 @@ panoramas:
     degree: 2
     degree: 3
 )"),
-            R"()");
+            R"(m.yaml:5:5: error: the key "degree" is given twice
+        degree: 3
+        ^ first on line 4
+)");
 }
 
 TEST_F(ManifestSyntax, Variables) {
@@ -164,7 +174,32 @@ panoramas:
   - {file: a.hdr, layer: "${one}"}
 )",
                      {.sets = {{"unused", "x"}}}),
-            R"()");
+            R"(m.yaml:2:22: error: "a b" cannot be a variable's name
+    vars: {library: lib, "a b": c, list: [1], self: "x${self}", one: "${two}", two: "${one}"}
+                         ^ use letters, digits, - and _
+m.yaml:2:32: error: the variable "list" must be text or a number
+    vars: {library: lib, "a b": c, list: [1], self: "x${self}", one: "${two}", two: "${one}"}
+                                   ^
+m.yaml:2:49: error: the variable "self" refers to itself
+    vars: {library: lib, "a b": c, list: [1], self: "x${self}", one: "${two}", two: "${one}"}
+                                                    ^
+m.yaml:2:66: error: the variable "one" refers to itself
+    vars: {library: lib, "a b": c, list: [1], self: "x${self}", one: "${two}", two: "${one}"}
+                                                                     ^
+m.yaml:2:81: error: the variable "two" refers to itself
+    vars: {library: lib, "a b": c, list: [1], self: "x${self}", one: "${two}", two: "${one}"}
+                                                                                    ^
+m.yaml:4:13: error: no variable "libary"
+      - files: "${libary}/*.hdr"
+                ^ did you mean "library"?
+m.yaml:5:13: error: no environment variable "SHOAL_TEST_UNSET"
+      - files: "${env:SHOAL_TEST_UNSET}/*.hdr"
+                ^ set it: SHOAL_TEST_UNSET=... shoal ...
+m.yaml:6:13: error: "${" without its "}"
+      - files: "${library/*.hdr"
+                ^ write "$${" for the characters themselves
+--set unused: error: the manifest knows no variable "unused"
+)");
 }
 
 TEST_F(ManifestSyntax, Includes) {
@@ -174,7 +209,19 @@ TEST_F(ManifestSyntax, Includes) {
 include: [b.yaml, nowhere.yaml]
 panoramas: [{file: a.hdr, degree: 99}]
 )"),
-            R"()");
+            R"(m.yaml:2:19: error: nowhere.yaml: cannot be opened: No such file or directory
+    include: [b.yaml, nowhere.yaml]
+                      ^
+m.yaml:3:35: error: degree must be a whole number from 0 to 64, not "99"
+    panoramas: [{file: a.hdr, degree: 99}]
+                                      ^
+b.yaml:2:10: error: this manifest is included by itself
+    include: m.yaml
+             ^ m.yaml -> b.yaml -> m.yaml
+b.yaml:3:12: error: unknown key "degre" in defaults
+    defaults: {degre: 1}
+               ^ did you mean "degree"?
+)");
 }
 
 }  // namespace

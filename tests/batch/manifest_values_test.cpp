@@ -15,7 +15,22 @@ degree: 4
 panoramas:
   - {file: a.hdr, zzz: 1}
 )"),
-            R"()");
+            R"(m.yaml:2:1: error: unknown key "outptu" in the manifest's top level
+    outptu: out
+    ^ did you mean "output"?
+m.yaml:3:12: error: unknown key "quadratur" in defaults
+    defaults: {quadratur: texel, lights: []}
+               ^ did you mean "quadrature"?
+m.yaml:3:30: error: "lights" is not available yet
+    defaults: {quadratur: texel, lights: []}
+                                 ^ leave it out
+m.yaml:4:1: error: unknown key "degree" in the manifest's top level
+    degree: 4
+    ^ it belongs to a panorama or defaults
+m.yaml:6:19: error: unknown key "zzz" in a panorama
+      - {file: a.hdr, zzz: 1}
+                      ^ known here: file, files, name, exclude, degree, quadrature, nonfinite, negative, clamp, rgbe_decode, encoding, layer, part, tags, exposure, scale, matrix, white, frame
+)");
 }
 
 TEST_F(ManifestValues, NotAvailableYet) {
@@ -27,7 +42,22 @@ panoramas:
 variants: {soft: {window: hann}}
 exports: [three]
 )"),
-            R"()");
+            R"(m.yaml:3:17: error: "lights" is not available yet
+      - {name: key, lights: [{disk: {radius: 10}}]}
+                    ^ leave it out
+m.yaml:4:19: error: "rotate" is not available yet
+      - {file: a.hdr, rotate: {yaw: 90}, layout: cube}
+                      ^ leave it out
+m.yaml:4:38: error: "layout" is not available yet
+      - {file: a.hdr, rotate: {yaw: 90}, layout: cube}
+                                         ^ leave it out
+m.yaml:5:19: error: "window" is not available yet
+    variants: {soft: {window: hann}}
+                      ^ leave it out
+m.yaml:6:1: error: "exports" is not available yet
+    exports: [three]
+    ^ leave it out
+)");
 }
 
 TEST_F(ManifestValues, NumbersOutOfRange) {
@@ -41,7 +71,22 @@ panoramas:
     exposure: 1000
     white: [1, 0, 1]
 )"),
-            R"()");
+            R"(m.yaml:4:13: error: degree must be a whole number from 0 to 64, not "65"
+        degree: 65
+                ^
+m.yaml:5:12: error: scale must be a number above 0, not "0"
+        scale: 0
+               ^
+m.yaml:6:12: error: clamp must be a number that is not negative, not "-1"
+        clamp: -1
+               ^
+m.yaml:7:15: error: exposure must be a number of stops from -100 to 100, not "1000"
+        exposure: 1000
+                  ^
+m.yaml:8:16: error: an item of white must be a number above 0, not "0"
+        white: [1, 0, 1]
+                   ^
+)");
 }
 
 TEST_F(ManifestValues, WrongTypes) {
@@ -88,7 +133,22 @@ panoramas: [{file: a.hdr}]
 quantities: [irradiance, irradiance]
 tables: [cvs]
 )"),
-            R"()");
+            R"(m.yaml:2:24: error: quadrature must be texel, midpoint or fejer, not "texle"
+    defaults: {quadrature: texle, nonfinite: ignore, encoding: sRGB}
+                           ^ did you mean "texel"?
+m.yaml:2:42: error: nonfinite must be error or zero, not "ignore"
+    defaults: {quadrature: texle, nonfinite: ignore, encoding: sRGB}
+                                             ^
+m.yaml:2:60: error: encoding must be srgb or linear, not "sRGB"
+    defaults: {quadrature: texle, nonfinite: ignore, encoding: sRGB}
+                                                               ^
+m.yaml:4:26: error: quantities names "irradiance" twice
+    quantities: [irradiance, irradiance]
+                             ^
+m.yaml:5:10: error: tables must be csv, json or npy, not "cvs"
+    tables: [cvs]
+             ^ did you mean "csv"?
+)");
 }
 
 TEST_F(ManifestValues, Frames) {
@@ -99,7 +159,16 @@ panoramas:
   - {file: b.hdr, frame: {center: +z, right: -z, up: +y}}
   - {file: c.hdr, frame: {center: +z, up: +y}}
 )"),
-            R"()");
+            R"(m.yaml:3:26: error: unknown frame "opnexr"
+      - {file: a.hdr, frame: opnexr}
+                             ^ did you mean "openexr"?
+m.yaml:4:26: error: the frame +z,-z,+y uses an axis twice
+      - {file: b.hdr, frame: {center: +z, right: -z, up: +y}}
+                             ^ centre, right and up lie on three different axes, such as +z,-x,+y
+m.yaml:5:26: error: a frame needs center, right and up
+      - {file: c.hdr, frame: {center: +z, up: +y}}
+                             ^ such as {center: +z, right: -x, up: +y}
+)");
 }
 
 TEST_F(ManifestValues, Variants) {
@@ -108,7 +177,19 @@ TEST_F(ManifestValues, Variants) {
 panoramas: [{file: a.hdr}]
 variants: {a.b: {}, dark: {exposure: dark, degree: 3}, dark: {}}
 )"),
-            R"()");
+            R"(m.yaml:3:12: error: "a.b" cannot be a variant's name
+    variants: {a.b: {}, dark: {exposure: dark, degree: 3}, dark: {}}
+               ^ use letters, digits, - and _
+m.yaml:3:38: error: exposure must be a number of stops from -100 to 100, not "dark"
+    variants: {a.b: {}, dark: {exposure: dark, degree: 3}, dark: {}}
+                                         ^
+m.yaml:3:44: error: unknown key "degree" in a variant
+    variants: {a.b: {}, dark: {exposure: dark, degree: 3}, dark: {}}
+                                               ^ it belongs to a panorama or defaults
+m.yaml:3:56: error: the key "dark" is given twice
+    variants: {a.b: {}, dark: {exposure: dark, degree: 3}, dark: {}}
+                                                           ^ first on line 3
+)");
 }
 
 TEST_F(ManifestValues, InfiniteColours) {
@@ -117,7 +198,10 @@ TEST_F(ManifestValues, InfiniteColours) {
 panoramas:
   - {file: a.hdr, scale: 1e300, exposure: 100}
 )"),
-            R"()");
+            R"(m.yaml:3:5: error: exposure, scale and colour matrix together are not finite
+      - {file: a.hdr, scale: 1e300, exposure: 100}
+        ^ check their values
+)");
 }
 
 }  // namespace

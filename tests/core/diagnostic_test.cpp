@@ -39,6 +39,12 @@ TEST(FormatDiagnostic, KeepsTabsUnderTabs) {
             "f:1:2: error: m\n    \tx\n    \t^\n");
 }
 
+// Columns are bytes, of which "ä" has two; the caret stands under what is seen.
+TEST(FormatDiagnostic, PutsTheCaretUnderItsCharacterBehindUtf8) {
+  EXPECT_EQ(format_diagnostic({Severity::error, {"f", 1, 5}, "m", ""}, "\u00e4\u00e4x"),
+            "f:1:5: error: m\n    \u00e4\u00e4x\n      ^\n");
+}
+
 TEST(ClosestMatch, FindsTyposAndNothingFarAway) {
   constexpr std::array<std::string_view, 3> keys = {"quadrature", "degree", "exclude"};
   EXPECT_EQ(closest_match("quadratur", keys), "quadrature");

@@ -24,7 +24,8 @@ class ExrBands : public testing::Test {
   const std::filesystem::path path_ = folder_ / "made.exr";
 };
 
-// One file a path through the reader: raw lines, deflated chunks, the C library, tiles, C++ classes.
+// One file a path through the reader: raw lines, deflated chunks, the C library, tiles, C++
+// classes.
 std::vector<ExrRecipe> one_of_each_kind() {
   std::vector<ExrRecipe> recipes;
   for (const Imf::Compression compression :
@@ -120,7 +121,8 @@ TEST_F(ExrBands, ReadersAreIndependentAndBandsComeInAnyOrder) {
       const auto band = (*forward)->read(i);
       const auto other = (*shuffled)->read(order[i]);
       ASSERT_TRUE(band && other);
-      store_band(*band, first);  // after the other reader's read: it must not have touched this band
+      store_band(*band,
+                 first);  // after the other reader's read: it must not have touched this band
       store_band(*other, second);
     }
     EXPECT_TRUE(first == *expected) << path;
@@ -148,8 +150,8 @@ TEST_F(ExrBands, BandThatIsNotThereIsAnError) {
   EXPECT_FALSE((*reader)->read((*source)->info().band_count));
 }
 
-// Lines without compression are not copied: planes point at the bytes as they were read, so a row is
-// followed by the next chunk's leader (8 bytes), or preceded by it when lines run upwards.
+// Lines without compression are not copied: planes point at the bytes as they were read, so a row
+// is followed by the next chunk's leader (8 bytes), or preceded by it when lines run upwards.
 TEST_F(ExrBands, UncompressedLinesAreShownInPlace) {
   for (const Imf::LineOrder order : {Imf::INCREASING_Y, Imf::DECREASING_Y}) {
     ExrRecipe recipe;

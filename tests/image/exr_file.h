@@ -123,7 +123,8 @@ inline Imf::FrameBuffer slices_of(RawPicture& pixels, const std::vector<std::str
   for (std::size_t i = 0; i < channels.size(); ++i) {
     const auto size = static_cast<std::ptrdiff_t>(sample_size(pixels.types[i]));
     const std::ptrdiff_t stride = size * pixels.width;
-    const auto base = reinterpret_cast<std::intptr_t>(pixels.planes[i].data()) - x * size - y * stride;
+    const auto base =
+        reinterpret_cast<std::intptr_t>(pixels.planes[i].data()) - x * size - y * stride;
     slices.insert(channels[i], Imf::Slice(pixel_type(pixels.types[i]),
                                           reinterpret_cast<char*>(base), size, stride));
   }
@@ -132,8 +133,8 @@ inline Imf::FrameBuffer slices_of(RawPicture& pixels, const std::vector<std::str
 
 // Writes `pixels` (the data window). Levels beyond 0 get the picture's upper left corner: they must
 // not be read, and hold something else than level 0.
-inline void write_exr(const std::filesystem::path& path, const ExrRecipe& recipe,
-                      RawPicture pixels, const Imf::Header* with_header = nullptr) {
+inline void write_exr(const std::filesystem::path& path, const ExrRecipe& recipe, RawPicture pixels,
+                      const Imf::Header* with_header = nullptr) {
   // Some file systems write a file that is overwritten to the disk at once, which takes time.
   std::filesystem::remove(path);
   const Imf::Header header = with_header ? *with_header : make_header(recipe);
@@ -157,8 +158,7 @@ inline void write_exr(const std::filesystem::path& path, const ExrRecipe& recipe
 }
 
 inline void write_exr(const std::filesystem::path& path, const ExrRecipe& recipe) {
-  write_exr(path, recipe,
-            make_raw(width_of(recipe.data), height_of(recipe.data), recipe.types, 1));
+  write_exr(path, recipe, make_raw(width_of(recipe.data), height_of(recipe.data), recipe.types, 1));
 }
 
 // The picture (the display window, or the data window if `data_is_picture`) as OpenEXR decodes it.
@@ -169,8 +169,7 @@ inline RawPicture read_with_imf(const std::filesystem::path& path,
   Imf::MultiPartInputFile file(path.c_str(), 0);
   Imf::InputPart part(file, part_number);
   const Imath::Box2i data = part.header().dataWindow();
-  const Imath::Box2i window =
-      which == PictureWindow::data ? data : part.header().displayWindow();
+  const Imath::Box2i window = which == PictureWindow::data ? data : part.header().displayWindow();
   std::vector<SampleType> types;
   for (const std::string& name : channels) {
     types.push_back(sample_type(part.header().channels()[name].type));

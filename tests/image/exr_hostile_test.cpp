@@ -1,5 +1,5 @@
-// Files that are cut off, damaged, or made to harm: an error or a picture, in little time and memory,
-// and never a crash.
+// Files that are cut off, damaged, or made to harm: an error or a picture, in little time and
+// memory, and never a crash.
 #include <ImfDeepFrameBuffer.h>
 #include <ImfDeepScanLineOutputFile.h>
 #include <ImfPartType.h>
@@ -178,7 +178,8 @@ TEST(ExrHostile, ChunkThatSaysItIsLonger) {
   for (const std::int32_t size : {-1, 0, 1, 100000, INT32_MAX, INT32_MIN}) {
     std::memcpy(&file[leader + 4], &size, sizeof size);
     write_bytes(path, file);
-    EXPECT_THAT(read_everything(path), HasSubstr("made.exr:16: the pixels of rows 16 to 20")) << size;
+    EXPECT_THAT(read_everything(path), HasSubstr("made.exr:16: the pixels of rows 16 to 20"))
+        << size;
   }
 }
 
@@ -198,7 +199,8 @@ TEST(ExrHostile, DeepFilesAreRefused) {
   constexpr int kSide = 4;
   {
     Imf::Header header(kSide, kSide);
-    for (const char* name : {"R", "G", "B"}) header.channels().insert(name, Imf::Channel(Imf::HALF));
+    for (const char* name : {"R", "G", "B"})
+      header.channels().insert(name, Imf::Channel(Imf::HALF));
     header.setType(Imf::DEEPSCANLINE);
     header.compression() = Imf::ZIPS_COMPRESSION;
     std::vector<unsigned> counts(kSide * kSide, 1);
@@ -225,8 +227,7 @@ TEST(ExrHostile, DeepFilesAreRefused) {
 TEST(ExrHostile, FindsOfFuzzersTakeNoTime) {
   for (const char* name : {"openexr-images/Damaged", "bad_inputs", "openexr-testsuite"}) {
     SHOAL_REQUIRE_TEST_DATA(name);
-    for (const auto& entry :
-         std::filesystem::recursive_directory_iterator(data_folder() / name)) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(data_folder() / name)) {
       if (!entry.is_regular_file()) continue;
       testing::internal::CaptureStderr();
       const auto begin = std::chrono::steady_clock::now();

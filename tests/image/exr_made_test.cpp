@@ -1,5 +1,5 @@
-// Every way in which an EXR file can store a picture, one by one: what comes out of the reader equals,
-// byte for byte, what OpenEXR's C++ classes decode from the whole file.
+// Every way in which an EXR file can store a picture, one by one: what comes out of the reader
+// equals, byte for byte, what OpenEXR's C++ classes decode from the whole file.
 #include <gtest/gtest.h>
 
 #include "image/exr_file.h"
@@ -9,9 +9,9 @@ namespace shoal::test {
 namespace {
 
 constexpr std::array kCompressions = {
-    Imf::NO_COMPRESSION,    Imf::RLE_COMPRESSION, Imf::ZIPS_COMPRESSION, Imf::ZIP_COMPRESSION,
-    Imf::PIZ_COMPRESSION,   Imf::PXR24_COMPRESSION, Imf::B44_COMPRESSION, Imf::B44A_COMPRESSION,
-    Imf::DWAA_COMPRESSION,  Imf::DWAB_COMPRESSION};
+    Imf::NO_COMPRESSION,   Imf::RLE_COMPRESSION,   Imf::ZIPS_COMPRESSION, Imf::ZIP_COMPRESSION,
+    Imf::PIZ_COMPRESSION,  Imf::PXR24_COMPRESSION, Imf::B44_COMPRESSION,  Imf::B44A_COMPRESSION,
+    Imf::DWAA_COMPRESSION, Imf::DWAB_COMPRESSION};
 
 // Reads the file that `recipe` makes, and compares.
 void expect_same_as_imf(const std::filesystem::path& path, const ExrRecipe& recipe,
@@ -119,9 +119,8 @@ TEST_P(ExrCompression, OtherChannelsAreLeftAside) {
     recipe.compression = GetParam();
     recipe.tile_width = recipe.tile_height = tile;
     recipe.channels = {"R", "G", "B", "A", "C", "Z", "id", "layer.R"};
-    recipe.types = {SampleType::half,    SampleType::half,    SampleType::half,
-                    SampleType::half,    SampleType::float32, SampleType::float32,
-                    SampleType::uint32,  SampleType::half};
+    recipe.types = {SampleType::half,    SampleType::half,    SampleType::half,   SampleType::half,
+                    SampleType::float32, SampleType::float32, SampleType::uint32, SampleType::half};
     expect_same_as_imf(path_, recipe);
     recipe.types[0] = SampleType::float32;
     recipe.types[2] = SampleType::uint32;

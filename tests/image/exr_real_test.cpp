@@ -119,11 +119,11 @@ TEST_P(ExrRealFiles, PixelsAreOpenImageIOs) {
 
 INSTANTIATE_TEST_SUITE_P(
     Folders, ExrRealFiles,
-    testing::Values("pmndrs_exr", "blender_exr", "polyhaven_exr", "exrs", "openexr-testsuite", "oiio",
-                    "bad_inputs", "openexr-images/ScanLines", "openexr-images/Chromaticities",
-                    "openexr-images/LuminanceChroma", "openexr-images/MultiResolution",
-                    "openexr-images/DisplayWindow", "openexr-images/Beachball",
-                    "openexr-images/TestImages"),
+    testing::Values("pmndrs_exr", "blender_exr", "polyhaven_exr", "exrs", "openexr-testsuite",
+                    "oiio", "bad_inputs", "openexr-images/ScanLines",
+                    "openexr-images/Chromaticities", "openexr-images/LuminanceChroma",
+                    "openexr-images/MultiResolution", "openexr-images/DisplayWindow",
+                    "openexr-images/Beachball", "openexr-images/TestImages"),
     [](const auto& parameter) {
       std::string name = parameter.param;
       for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
@@ -148,9 +148,9 @@ TEST(ExrExpectedDecodes, LossyCodecsDecodeAsExpected) {
   }
 }
 
-// DWA is no bit-exact format: its cosine transform is computed in floats, in an order that depends on
-// the library's version and processor. So most pixels agree, and none is farther off than the codec's
-// own loss on this picture, which is 2 %.
+// DWA is no bit-exact format: its cosine transform is computed in floats, in an order that depends
+// on the library's version and processor. So most pixels agree, and none is farther off than the
+// codec's own loss on this picture, which is 2 %.
 TEST(ExrExpectedDecodes, DwaDecodesAsExpectedButForRounding) {
   SHOAL_REQUIRE_TEST_DATA(kMethods);
   const auto folder = data_folder() / kMethods;

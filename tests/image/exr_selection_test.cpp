@@ -30,7 +30,7 @@ class ExrSelection : public testing::Test {
     return source ? Error{} : source.error();
   }
   void write_parts(const std::vector<ExrRecipe>& recipes, const std::vector<RawPicture>& pixels,
-                        const std::vector<std::string>& names);
+                   const std::vector<std::string>& names);
 
   TemporaryFolder folder_;
   const std::filesystem::path path_ = folder_ / "made.exr";
@@ -49,8 +49,8 @@ ReadOptions part(const std::string& name) {
 }
 
 void ExrSelection::write_parts(const std::vector<ExrRecipe>& recipes,
-                                    const std::vector<RawPicture>& pixels,
-                                    const std::vector<std::string>& names) {
+                               const std::vector<RawPicture>& pixels,
+                               const std::vector<std::string>& names) {
   std::vector<Imf::Header> headers;
   for (std::size_t i = 0; i < recipes.size(); ++i) {
     headers.push_back(make_header(recipes[i]));
@@ -267,7 +267,8 @@ TEST_F(ExrSelection, ForeignChromaticitiesAreAWarning) {
   EXPECT_THAT(warnings({}), IsEmpty());  // OpenEXR's default is Rec. 709
   EXPECT_THAT(warnings({{0.64f, 0.33f}, {0.3f, 0.6f}, {0.15f, 0.06f}, {0.31271f, 0.32902f}}),
               IsEmpty());
-  const auto wide = warnings({{0.708f, 0.292f}, {0.17f, 0.797f}, {0.131f, 0.046f}, {0.3127f, 0.329f}});
+  const auto wide =
+      warnings({{0.708f, 0.292f}, {0.17f, 0.797f}, {0.131f, 0.046f}, {0.3127f, 0.329f}});
   ASSERT_EQ(wide.size(), 1u);
   EXPECT_THAT(wide[0], HasSubstr("red 0.708 0.292"));
 }

@@ -11,6 +11,7 @@
 #include "support/every_target.h"
 #include "support/made_picture.h"
 #include "support/temporary_folder.h"
+#include "transform/moment_table.h"
 
 namespace shoal {
 namespace {
@@ -186,6 +187,57 @@ TEST_F(Projector, GivesTheSameBitsForEveryTargetThreadCountAndBandHeight) {
         }
       });
     }
+  }
+}
+
+TEST_F(Projector, GivesTheSameBitsForEveryWidth) {
+  for (const MapFormat format : {MapFormat::exr_half, MapFormat::exr_float, MapFormat::hdr}) {
+    for (int width = 1; width <= 67; ++width) {
+      const auto path = write(test::make_noisy_picture(width, 20, width), format, "width");
+      const ProjectionSettings settings = settings_of(3, Quadrature::texel);
+      const Coefficients first = project(path, settings).radiance;
+      test::for_every_target([&] {
+        ReadOptions options;
+        options.rows_per_band = 3;
+        EXPECT_TRUE(project(path, settings, options).radiance == first) << path << " " << width;
+      });
+    }
+  }
+}
+
+// The order of bands is the scheduler's affair: a table filled band by band in any order holds the same.
+TEST_F(Projector, DoesNotDependOnTheOrderOfBands) {
+  const auto path = write(test::make_noisy_picture(100, 200, 9), MapFormat::exr_half, "order");
+  const ProjectionSettings settings = settings_of(6, Quadrature::texel);
+  const Coefficients expected = project(path, settings).radiance;
+  ReadOptions options;
+  options.rows_per_band = 1;
+  const auto source = open_panorama(path, options, portable_chunk_codecs());
+  ASSERT_TRUE(source) << source.error().text();
+  const PictureInfo& info = (*source)->info();
+  ASSERT_EQ(info.band_access, BandAccess::random);
+  ProjectionTables tables;
+  const auto grid = tables.get({info.width, info.height, Sampling::centers}, Quadrature::texel, 6);
+  test::RandomNumbers random(1);
+  for (int shuffle = 0; shuffle < 5; ++shuffle) {
+    std::vector<int> order(info.band_count);
+    for (int i = 0; i < info.band_count; ++i) order[i] = i;
+    for (int i = info.band_count - 1; i > 0; --i) std::swap(order[i], order[random.below(i + 1)]);
+    auto reader = (*source)->new_reader();
+    ASSERT_TRUE(reader);
+    MomentTable table(3, 6, info.height);
+    kernels::RowMomentScratch scratch;
+    for (const int index : order) {
+      const auto band = (*reader)->read(index);
+      ASSERT_TRUE(band) << band.error().text();
+      std::vector<kernels::SampleRange> ranges(3 * band->row_count());
+      kernels::row_moments(grid->moments, *band, scratch,
+                           {table.column(0, 0) + band->row_begin,
+                            static_cast<std::ptrdiff_t>(table.moment_count) * table.row_count,
+                            table.row_count},
+                           ranges);
+    }
+    EXPECT_TRUE(contract(table, grid->weights) == expected);
   }
 }
 
