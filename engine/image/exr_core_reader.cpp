@@ -2,33 +2,22 @@
 
 #include <OpenEXRConfig.h>
 
-#include <cstddef>
-#include <span>
-
 namespace shoal {
 namespace {
 
-// The C library of OpenEXR 3.1 does not implement DWAA and DWAB.
-constexpr bool kCoreDecodesDwa = OPENEXR_VERSION_MAJOR > 3 ||
-                                 (OPENEXR_VERSION_MAJOR == 3 && OPENEXR_VERSION_MINOR >= 2);
-
-// Takes the place of the library's decompression; `decoding_user_data` is our inflater.
-exr_result_t inflate(exr_decode_pipeline_t* pipeline) {
-  auto& inflater = *static_cast<ExrInflater*>(pipeline->decoding_user_data);
-  const std::span packed(static_cast<const std::byte*>(pipeline->packed_buffer),
-                         pipeline->chunk.packed_size);
-  const std::span out(static_cast<std::byte*>(pipeline->unpacked_buffer),
-                      pipeline->chunk.unpacked_size);
-  return inflater.expand(packed, out) == Expansion::done ? EXR_ERR_SUCCESS : EXR_ERR_CORRUPT_CHUNK;
-}
+// The C library of OpenEXR 3.1 does not implement DWAA and DWAB, and its PIZ takes more than twice
+// as long as that of the C++ classes (295 to 122 ms for 4096 x 2048 half pixels).
+constexpr bool kOldCore =
+    OPENEXR_VERSION_MAJOR < 3 || (OPENEXR_VERSION_MAJOR == 3 && OPENEXR_VERSION_MINOR < 2);
 
 }  // namespace
 
 bool ExrCoreReader::can_read(const ExrPart& part, const ExrColour& colour) {
   if (colour.model == ExrColourModel::luminance_chroma || part.has_subsampling()) return false;
-  const bool is_dwa =
-      part.compression == EXR_COMPRESSION_DWAA || part.compression == EXR_COMPRESSION_DWAB;
-  return kCoreDecodesDwa || !is_dwa;
+  const bool needs_newer = part.compression == EXR_COMPRESSION_PIZ ||
+                           part.compression == EXR_COMPRESSION_DWAA ||
+                           part.compression == EXR_COMPRESSION_DWAB;
+  return !(kOldCore && needs_newer);
 }
 
 ExrCoreReader::ExrCoreReader(std::shared_ptr<const ExrPicture> picture_in)
@@ -60,17 +49,16 @@ Status ExrCoreReader::decode(const ExrBand& band, RowBand& rows) {
 
 // Decodes the tiles of row `chunk` that show in the picture to `first_row` of our rows.
 Status ExrCoreReader::decode_tiles(int chunk, int first_row) {
-  const int tile_width = picture().part.chunk_columns;
-  const int first = (layout().visible_x_begin - layout().data_x) / tile_width;
-  const int last = (layout().visible_x_end - 1 - layout().data_x) / tile_width;
+  const ExrLayout::Columns tiles = layout().visible_tiles(picture().part.chunk_columns);
   const std::string where = picture().where(layout().row_of_chunk(chunk));
-  for (int tile = first; tile <= last; ++tile) {
+  for (int tile = tiles.begin; tile < tiles.end; ++tile) {
     exr_chunk_info_t info{};
     SHOAL_RETURN_IF_ERROR(picture().context->run(where, [&] {
       return exr_read_tile_chunk_info(picture().context->handle(), picture().part.index, tile,
                                       chunk, 0, 0, &info);
     }));
-    SHOAL_RETURN_IF_ERROR(decode_chunk(info, first_row, tile * tile_width, where));
+    SHOAL_RETURN_IF_ERROR(
+        decode_chunk(info, first_row, tile * picture().part.chunk_columns, where));
   }
   return {};
 }
@@ -79,10 +67,6 @@ Status ExrCoreReader::decode_chunk(const exr_chunk_info_t& info, int row, int co
                                    const std::string& where) {
   const ExrContext& context = *picture().context;
   const bool stored_as_is = info.packed_size == info.unpacked_size;
-  if (picture().part.compression == EXR_COMPRESSION_NONE && !stored_as_is) {
-    return Error{ErrorCode::malformed, "the pixels of this chunk are cut off", where,
-                 "the file is damaged; copy it again"};
-  }
   SHOAL_RETURN_IF_ERROR(context.run(where, [&] { return aim_pipeline(info, row, column); }));
   // A chunk that did not become smaller is stored as it is, in every compression; the library (3.1)
   // would decompress it nevertheless if it is B44.
@@ -106,20 +90,10 @@ exr_result_t ExrCoreReader::aim_pipeline(const exr_chunk_info_t& info, int row, 
     channel.user_pixel_stride = channel.bytes_per_element;
     channel.user_line_stride = static_cast<std::int32_t>(rows_.row_stride(c));
   }
-  return is_first ? choose_routines() : EXR_ERR_SUCCESS;
-}
-
-exr_result_t ExrCoreReader::choose_routines() {
-  const exr_result_t result = exr_decoding_choose_default_routines(
-      picture().context->handle(), picture().part.index, &pipeline_);
+  if (!is_first) return EXR_ERR_SUCCESS;
+  const exr_result_t chosen = exr_decoding_choose_default_routines(context, part, &pipeline_);
   decompress_ = pipeline_.decompress_fn;
-  const exr_compression_t compression = picture().part.compression;
-  if (compression == EXR_COMPRESSION_RLE || compression == EXR_COMPRESSION_ZIPS ||
-      compression == EXR_COMPRESSION_ZIP) {
-    pipeline_.decoding_user_data = &inflater_.emplace(compression, picture().codecs);
-    decompress_ = &inflate;
-  }
-  return result;
+  return chosen;
 }
 
 }  // namespace shoal

@@ -1,12 +1,10 @@
-// EXR parts in tiles, and scanlines in the compressions that OpenEXRCore decodes for us.
+// EXR scanlines and tiles in the compressions that OpenEXRCore decodes for us: PXR24, B44, B44A,
+// and with newer versions of the library the rest.
 #pragma once
 
 #include <openexr.h>
 
-#include <optional>
-
 #include "image/exr_band_reader.h"
-#include "image/exr_inflate.h"
 
 namespace shoal {
 
@@ -23,13 +21,11 @@ class ExrCoreReader final : public ExrBandReader {
   Status decode_tiles(int chunk, int first_row);
   Status decode_chunk(const exr_chunk_info_t& info, int row, int column, const std::string& where);
   exr_result_t aim_pipeline(const exr_chunk_info_t& info, int row, int column);
-  exr_result_t choose_routines();
 
   ExrPlanarRows rows_;
   // One pipeline for all chunks: it keeps its buffers. It points into itself, so it must not move.
   exr_decode_pipeline_t pipeline_{};
   decltype(exr_decode_pipeline_t::decompress_fn) decompress_ = nullptr;
-  std::optional<ExrInflater> inflater_;  // for tiles in ZIP, ZIPS, RLE: faster than the library's
 };
 
 }  // namespace shoal

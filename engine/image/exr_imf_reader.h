@@ -1,5 +1,6 @@
-// EXR parts that need OpenEXR's C++ classes: DWAA and DWAB where the C library lacks them, parts
-// with subsampled channels beside the colour, and luminance/chroma, which becomes RGB in reading.
+// EXR parts that need OpenEXR's C++ classes: PIZ, DWAA and DWAB where the C library does them
+// slowly or not at all, parts with subsampled channels beside the colour, and luminance/chroma,
+// which becomes RGB in reading.
 //
 // Every reader opens the file's header for itself, so that readers do not wait for each other.
 #pragma once

@@ -5,10 +5,16 @@
 
 namespace shoal {
 
+bool ExrInflater::can_expand(exr_compression_t compression) {
+  return compression == EXR_COMPRESSION_NONE || compression == EXR_COMPRESSION_RLE ||
+         compression == EXR_COMPRESSION_ZIPS || compression == EXR_COMPRESSION_ZIP;
+}
+
 ExrInflater::ExrInflater(exr_compression_t compression, const ChunkCodecs& codecs)
     : compression_(compression), codecs_(codecs), inflater_(libdeflate_alloc_decompressor()) {}
 
 Expansion ExrInflater::expand(std::span<const std::byte> packed, std::span<std::byte> out) {
+  if (compression_ == EXR_COMPRESSION_NONE) return Expansion::damaged;
   shuffled_.resize_uninitialised(out.size());
   if (compression_ == EXR_COMPRESSION_RLE) {
     if (expand_exr_runs(packed, shuffled_.span()) != Expansion::done) return Expansion::damaged;

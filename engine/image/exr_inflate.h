@@ -1,4 +1,4 @@
-// Expands the chunks of EXR's ZIP, ZIPS and RLE compression.
+// Expands the chunks of EXR's ZIP, ZIPS and RLE compression, and of none.
 #pragma once
 
 #include <libdeflate.h>
@@ -17,9 +17,13 @@ enum class Expansion { done, damaged };
 
 class ExrInflater {
  public:
+  static bool can_expand(exr_compression_t compression);
+
   ExrInflater(exr_compression_t compression, const ChunkCodecs& codecs);
 
-  // Expands `packed` to exactly fill `out`. The scratch memory grows to the largest chunk met.
+  // Expands `packed` to exactly fill `out`. Chunks that would not become smaller are stored as they
+  // are and need no expansion: without compression, whatever comes here is damaged.
+  // The scratch memory grows to the largest chunk met.
   Expansion expand(std::span<const std::byte> packed, std::span<std::byte> out);
 
  private:

@@ -59,6 +59,15 @@ struct ExrLayout {
   [[nodiscard]] bool covers_width() const { return data_x <= 0 && data_x + data_width >= width; }
   [[nodiscard]] double covered_fraction() const;
 
+  // Tiles [begin, end) of a row of tiles that show in the picture. Precondition: some do.
+  struct Columns {
+    int begin = 0;
+    int end = 0;
+  };
+  [[nodiscard]] Columns visible_tiles(int tile_width) const {
+    return {(visible_x_begin - data_x) / tile_width, (visible_x_end - 1 - data_x) / tile_width + 1};
+  }
+
   // Rows of chunk row `chunk`, and its first row in the picture's coordinates (may be negative).
   [[nodiscard]] int rows_of_chunk(int chunk) const;
   [[nodiscard]] int row_of_chunk(int chunk) const { return data_y + chunk * chunk_rows; }

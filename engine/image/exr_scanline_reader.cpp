@@ -20,10 +20,9 @@ std::int32_t read_i32(const std::byte* at) {
 }  // namespace
 
 bool ExrScanlineReader::can_read(const ExrPart& part, const ExrColour& colour) {
-  if (part.storage != ExrStorage::scanlines || part.has_subsampling()) return false;
-  if (colour.model == ExrColourModel::luminance_chroma) return false;
-  return part.compression == EXR_COMPRESSION_NONE || part.compression == EXR_COMPRESSION_RLE ||
-         part.compression == EXR_COMPRESSION_ZIPS || part.compression == EXR_COMPRESSION_ZIP;
+  return part.storage == ExrStorage::scanlines && !part.has_subsampling() &&
+         colour.model != ExrColourModel::luminance_chroma &&
+         ExrInflater::can_expand(part.compression);
 }
 
 ExrScanlineReader::ExrScanlineReader(std::shared_ptr<const ExrPicture> picture_in)
@@ -132,8 +131,6 @@ Result<ExrScanlineReader::Lines> ExrScanlineReader::expand(const ExrBand& band) 
     filled += out.size();
     if (packed.size() == out.size()) {
       std::memcpy(out.data(), packed.data(), out.size());  // did not become smaller by compression
-    } else if (picture().part.compression == EXR_COMPRESSION_NONE) {
-      return damaged(chunk, "are cut off");
     } else if (inflater_.expand(packed, out) != Expansion::done) {
       return damaged(
           chunk, "do not decompress (" + exr_compression_name(picture().part.compression) + ")");

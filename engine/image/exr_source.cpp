@@ -11,6 +11,7 @@
 #include "image/exr_core_reader.h"
 #include "image/exr_imf_reader.h"
 #include "image/exr_scanline_reader.h"
+#include "image/exr_tile_reader.h"
 
 namespace shoal {
 namespace {
@@ -88,6 +89,8 @@ class ExrSource final : public PanoramaSource {
     std::unique_ptr<BandReader> reader;
     if (ExrScanlineReader::can_read(picture_->part, picture_->colour)) {
       reader = std::make_unique<ExrScanlineReader>(picture_);
+    } else if (ExrTileReader::can_read(picture_->part, picture_->colour)) {
+      reader = std::make_unique<ExrTileReader>(picture_);
     } else if (ExrCoreReader::can_read(picture_->part, picture_->colour)) {
       reader = std::make_unique<ExrCoreReader>(picture_);
     } else if (picture_->colour.model == ExrColourModel::luminance_chroma) {

@@ -63,7 +63,7 @@ struct PictureInfo {
   bool samples_reversed = false;
 
   int band_count = 0;
-  int rows_per_band = 0;  // all bands but the last; scanlines, so columns where scan_axis says so
+  int rows_per_band = 0;  // most that a band has; scanlines, so columns where scan_axis says so
   BandAccess band_access = BandAccess::random;
 
   // From the file's samples to linear Rec.709: EXPOSURE, XYZ. Applied to coefficients.

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <numeric>
 #include <random>
+#include <thread>
 
 #include "image/exr_context.h"
 #include "image/exr_file.h"
@@ -127,6 +128,26 @@ TEST_F(ExrBands, ReadersAreIndependentAndBandsComeInAnyOrder) {
     }
     EXPECT_TRUE(first == *expected) << path;
     EXPECT_TRUE(second == *expected) << path;
+  }
+}
+
+// A reader a thread, all of one source.
+TEST_F(ExrBands, ThreadsShareASource) {
+  for (const ExrRecipe& recipe : one_of_each_kind()) {
+    write_exr(path_, recipe);
+    const RawPicture expected = read_with_imf(path_, recipe.channels);
+    const auto source = open_exr(path_, {}, portable_chunk_codecs());
+    ASSERT_TRUE(source) << source.error().text();
+    std::array<RawPicture, 4> pictures;
+    std::vector<std::thread> threads;
+    for (RawPicture& picture : pictures) {
+      threads.emplace_back([&] {
+        const auto read = read_raw(**source);
+        if (read) picture = *read;
+      });
+    }
+    for (std::thread& thread : threads) thread.join();
+    for (const RawPicture& picture : pictures) EXPECT_TRUE(picture == expected);
   }
 }
 

@@ -161,8 +161,9 @@ inline void write_exr(const std::filesystem::path& path, const ExrRecipe& recipe
   write_exr(path, recipe, make_raw(width_of(recipe.data), height_of(recipe.data), recipe.types, 1));
 }
 
-// The picture (the display window, or the data window if `data_is_picture`) as OpenEXR decodes it.
 enum class PictureWindow { display, data };
+
+// The picture, one of the windows, as OpenEXR decodes it; black outside of the data window.
 inline RawPicture read_with_imf(const std::filesystem::path& path,
                                 const std::vector<std::string>& channels, int part_number = 0,
                                 PictureWindow which = PictureWindow::display) {

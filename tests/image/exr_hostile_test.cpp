@@ -155,14 +155,33 @@ TEST_F(ExrHostileHeader, UnknownCompression) {
   EXPECT_THAT(error(), HasSubstr("compressed by method 77"));
 }
 
+// What is missing would be made up by the library, and is not to be.
+TEST_F(ExrHostileHeader, RequiredAttributesMustBeThere) {
+  const std::string whole = file_;
+  for (const std::string name : {"channels", "compression", "dataWindow", "displayWindow"}) {
+    file_ = whole;
+    file_[file_.find(name + '\0')] = 'X';
+    EXPECT_NE(error(), "") << name;
+  }
+  file_ = whole;
+  file_[file_.find("dataWindow")] = 'X';
+  EXPECT_THAT(error(), HasSubstr("needs one attribute dataWindow"));
+}
+
+// The classes that read DWAA make room for a tile as it is declared, however small the picture is.
 TEST_F(ExrHostileHeader, TilesAsLargeAsAnIntegerHolds) {
-  ExrRecipe recipe;
-  recipe.tile_width = recipe.tile_height = 16;
-  write_exr(path_, recipe);
-  file_ = read_bytes(path_);
-  for (const std::uint32_t size : {0u, 1u, 1u << 30, 0x7fffffffu, 0xffffffffu}) {
-    set_attribute(file_, "tiles", std::array<std::uint32_t, 2>{size, size});
-    EXPECT_NE(error(), "") << size;
+  for (const Imf::Compression compression : {Imf::ZIP_COMPRESSION, Imf::DWAA_COMPRESSION}) {
+    ExrRecipe recipe;
+    recipe.compression = compression;
+    recipe.tile_width = recipe.tile_height = 16;
+    write_exr(path_, recipe);
+    file_ = read_bytes(path_);
+    for (const std::uint32_t size : {0u, 1u, 1u << 30, 0x7fffffffu, 0xffffffffu}) {
+      set_attribute(file_, "tiles", std::array<std::uint32_t, 2>{size, size});
+      EXPECT_NE(error(), "") << size;
+    }
+    set_attribute(file_, "tiles", std::array<std::uint32_t, 2>{1u << 14, 1u << 14});
+    EXPECT_THAT(error(), HasSubstr("chunks of 1536 MiB"));
   }
 }
 
