@@ -7,6 +7,8 @@
 #include <hwy/foreach_target.h>  // compiles this file once a target; must come before highway.h
 #include <hwy/highway.h>
 
+#include "kernels/dispatch.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace shoal::kernels::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
@@ -103,11 +105,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace shoal::kernels {
 
-HWY_EXPORT(UndoPredictorAndSplit);
+SHOAL_KERNEL_TABLE(UndoPredictorAndSplit);
 
 void undo_predictor_and_split(std::byte* in, std::size_t size, std::byte* out) {
   if (size == 0) return;
-  HWY_DYNAMIC_DISPATCH(UndoPredictorAndSplit)
+  SHOAL_CALL_KERNEL(UndoPredictorAndSplit)
   (reinterpret_cast<const std::uint8_t*>(in), size, reinterpret_cast<std::uint8_t*>(out));
 }
 

@@ -9,6 +9,7 @@
 #include <hwy/foreach_target.h>  // compiles this file once a target; must come before highway.h
 #include <hwy/highway.h>
 
+#include "kernels/dispatch.h"
 #include "kernels/samples-inl.h"
 
 #ifndef SHOAL_KERNELS_ROW_MOMENTS_ONCE
@@ -157,9 +158,10 @@ void gather_plain(const Samples& samples, std::size_t begin, std::size_t end, fl
 }
 
 // Fills the streams of one channel with columns [begin, end), and zeros up to a whole group.
-void gather(const RowMomentPlan& plan, const RowBand& band, int row, int channel, std::size_t begin,
-            std::size_t end, float* const* streams, RunningRange& range) {
-  with_samples(band, row, channel, [&](const auto& samples) {
+void gather(const RowMomentPlan& plan, const RowBand& band, int row, int channel,
+            const float* scales, std::size_t begin, std::size_t end, float* const* streams,
+            RunningRange& range) {
+  with_samples(band, row, channel, scales, [&](const auto& samples) {
     if (plan.symmetry == Symmetry::four_fold) {
       gather_fourfold(samples, static_cast<std::size_t>(plan.width), begin, end, streams, range);
     } else {
@@ -170,6 +172,14 @@ void gather(const RowMomentPlan& plan, const RowBand& band, int row, int channel
   for (int s = 0; s < stream_count; ++s) {
     for (std::size_t k = end - begin; k % kVirtualLanes != 0; ++k) streams[s][k] = 0.0F;
   }
+}
+
+// What all channels of a row of Radiance texels share.
+void prepare_scales(const RowBand& band, int row, RowMomentScratch& scratch) {
+  if (!is_rgbe(band)) return;
+  const auto width = static_cast<std::size_t>(band.width);
+  scratch.scales.resize_uninitialised(width);
+  make_texel_scales(band.exponent.row(row), width, scratch.scales.data());
 }
 
 // sums[t][c][lane] += sum over the segment of tables[t] * streams[t][c], in double per virtual
@@ -284,6 +294,7 @@ void RowMoments(const RowMomentPlan& plan, const RowBand& band, RowMomentScratch
   for (int row = 0; row < band.row_count(); ++row) {
     scratch.sums.resize_zeroed(sum_count);
     for (auto& range : running) range.clear();
+    prepare_scales(band, row, scratch);
     for (std::size_t begin = 0; begin < plan.stream_length; begin += kSegment) {
       const std::size_t end = std::min(begin + kSegment, plan.stream_length);
       for (int c = 0; c < channels; ++c) {
@@ -291,7 +302,7 @@ void RowMoments(const RowMomentPlan& plan, const RowBand& band, RowMomentScratch
         for (int s = 0; s < kStreamsPerChannel; ++s) {
           streams[s] = scratch.streams.data() + (c * kStreamsPerChannel + s) * kSegment;
         }
-        gather(plan, band, row, c, begin, end, streams.data(), running[c]);
+        gather(plan, band, row, c, scratch.scales.data(), begin, end, streams.data(), running[c]);
       }
       const auto all_orders = channels == 1 ? accumulate<1> : accumulate<kMaxChannels>;
       all_orders(plan, begin, end, scratch.streams.data(), scratch.sums.data());
@@ -353,8 +364,9 @@ void SynthesiseRow(const RowMomentPlan& plan, const float* moments, float* out) 
   }
 }
 
-void WidenRow(const RowBand& band, int row, int channel, float* out) {
-  with_samples(band, row, channel, [&](const auto& samples) {
+void WidenRow(const RowBand& band, int row, int channel, RowMomentScratch& scratch, float* out) {
+  prepare_scales(band, row, scratch);
+  with_samples(band, row, channel, scratch.scales.data(), [&](const auto& samples) {
     const auto width = static_cast<std::size_t>(band.width);
     std::size_t k = 0;
     for (; k + kLanes <= width; k += kLanes) hn::StoreU(samples.vector(k), FloatTag(), out + k);
@@ -371,9 +383,9 @@ HWY_AFTER_NAMESPACE();
 
 namespace shoal::kernels {
 
-HWY_EXPORT(RowMoments);
-HWY_EXPORT(SynthesiseRow);
-HWY_EXPORT(WidenRow);
+SHOAL_KERNEL_TABLE(RowMoments);
+SHOAL_KERNEL_TABLE(SynthesiseRow);
+SHOAL_KERNEL_TABLE(WidenRow);
 
 namespace {
 
@@ -417,7 +429,7 @@ RowMomentPlan make_row_moment_plan(int width, int degree, const ColumnPhases& ph
 
 void row_moments(const RowMomentPlan& plan, const RowBand& band, RowMomentScratch& scratch,
                  const MomentSlots& slots, std::span<SampleRange> ranges) {
-  HWY_DYNAMIC_DISPATCH(RowMoments)(plan, band, scratch, slots, ranges);
+  SHOAL_CALL_KERNEL(RowMoments)(plan, band, scratch, slots, ranges);
 }
 
 void synthesise_row(const RowMomentPlan& plan, std::span<const double> moments,
@@ -425,11 +437,11 @@ void synthesise_row(const RowMomentPlan& plan, std::span<const double> moments,
   scratch.streams.resize_uninitialised(moments.size());
   std::ranges::transform(moments, scratch.streams.data(),
                          [](double moment) { return static_cast<float>(moment); });
-  HWY_DYNAMIC_DISPATCH(SynthesiseRow)(plan, scratch.streams.data(), out);
+  SHOAL_CALL_KERNEL(SynthesiseRow)(plan, scratch.streams.data(), out);
 }
 
-void widen_row(const RowBand& band, int row, int channel, float* out) {
-  HWY_DYNAMIC_DISPATCH(WidenRow)(band, row, channel, out);
+void widen_row(const RowBand& band, int row, int channel, RowMomentScratch& scratch, float* out) {
+  SHOAL_CALL_KERNEL(WidenRow)(band, row, channel, scratch, out);
 }
 
 }  // namespace shoal::kernels

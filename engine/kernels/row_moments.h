@@ -72,6 +72,7 @@ struct SampleRange {
 struct RowMomentScratch {
   AlignedBuffer<float> streams;
   AlignedBuffer<double> sums;
+  AlignedBuffer<float> scales;  // of a row's Radiance texels
 };
 
 // Moments and ranges of all rows of a band. `ranges` has the shape (row_count, channel_count).
@@ -87,6 +88,6 @@ void synthesise_row(const RowMomentPlan& plan, std::span<const double> moments,
                     RowMomentScratch& scratch, float* out);
 
 // One row of one channel as floats: half and RGBE exactly, uint32 to nearest.
-void widen_row(const RowBand& band, int row, int channel, float* out);
+void widen_row(const RowBand& band, int row, int channel, RowMomentScratch& scratch, float* out);
 
 }  // namespace shoal::kernels

@@ -104,39 +104,65 @@ struct Uint32Samples {
   }
 };
 
-// (m + offset)/256 * 2^(e-128) as ((m + offset) 2^-8) * 2^(e-128), each factor exact. 2^(e-128) has
-// the float bits (e-1) << 23, but for e = 1, where it is the denormal 2^-127, and e = 0, which is
-// black.
+// 2^(e-136) of a Radiance exponent, 0 for e = 0: what a mantissa m is multiplied by, exactly,
+// whatever e. 2^(e-128) has the float bits (e-1) << 23, but for e = 1, where it is the denormal
+// 2^-127.
+HWY_INLINE FloatVec texel_scales(const std::byte* exponents) {
+  const FloatTag d;
+  const IntTag di;
+  const hn::Rebind<std::uint8_t, FloatTag> d8;
+  const auto e = hn::PromoteTo(di, load_unaligned<std::uint8_t>(d8, exponents));
+  const auto normal = hn::Max(hn::ShiftLeft<23>(hn::Sub(e, hn::Set(di, 1))), hn::Zero(di));
+  const auto is_one = hn::VecFromMask(di, hn::Eq(e, hn::Set(di, 1)));
+  const auto bits = hn::Or(normal, hn::And(is_one, hn::Set(di, 0x00400000)));
+  return hn::Mul(hn::BitCast(d, bits), hn::Set(d, 0x1p-8F));
+}
+
+HWY_INLINE float texel_scale(std::uint8_t e) {
+  const std::uint32_t bits = e > 1 ? (e - 1U) << 23 : e == 1 ? 0x00400000U : 0U;
+  return std::bit_cast<float>(bits) * 0x1p-8F;
+}
+
+// The scales of a whole row, which its three channels share.
+inline void make_texel_scales(const std::byte* exponents, std::size_t width, float* scales) {
+  constexpr std::size_t kLanes = hn::MaxLanes(FloatTag());
+  std::size_t k = 0;
+  for (; k + kLanes <= width; k += kLanes) {
+    hn::StoreU(texel_scales(exponents + k), FloatTag(), scales + k);
+  }
+  for (; k < width; ++k) scales[k] = texel_scale(load_one<std::uint8_t>(exponents + k));
+}
+
 template <int kHalves>
 struct RgbeSamples {
   const std::byte* row;
-  const std::byte* exponents;
+  const float* scales;
 
   static constexpr float kOffset = 0.5F * kHalves;
 
   HWY_INLINE FloatVec vector(std::size_t index) const {
     const FloatTag d;
-    const IntTag di;
     const hn::Rebind<std::uint8_t, FloatTag> d8;
-    const auto e = hn::PromoteTo(di, load_unaligned<std::uint8_t>(d8, exponents + index));
-    const auto normal = hn::Max(hn::ShiftLeft<23>(hn::Sub(e, hn::Set(di, 1))), hn::Zero(di));
-    const auto is_one = hn::VecFromMask(di, hn::Eq(e, hn::Set(di, 1)));
-    const auto bits = hn::Or(normal, hn::And(is_one, hn::Set(di, 0x00400000)));
-    const auto m = hn::PromoteTo(di, load_unaligned<std::uint8_t>(d8, row + index));
-    const auto mantissa = hn::Add(hn::ConvertTo(d, m), hn::Set(d, kOffset));
-    return hn::Mul(hn::Mul(mantissa, hn::Set(d, 0x1p-8F)), hn::BitCast(d, bits));
+    const auto m = hn::PromoteTo(IntTag(), load_unaligned<std::uint8_t>(d8, row + index));
+    auto mantissa = hn::ConvertTo(d, m);
+    if constexpr (kHalves != 0) mantissa = hn::Add(mantissa, hn::Set(d, kOffset));
+    return hn::Mul(mantissa, hn::LoadU(d, scales + index));
   }
   HWY_INLINE float one(std::size_t index) const {
-    const auto e = load_one<std::uint8_t>(exponents + index);
     const auto m = static_cast<float>(load_one<std::uint8_t>(row + index));
-    const std::uint32_t bits = e > 1 ? (e - 1U) << 23 : e == 1 ? 0x00400000U : 0U;
-    return (m + kOffset) * 0x1p-8F * std::bit_cast<float>(bits);
+    return (m + kOffset) * scales[index];
   }
 };
 
-// Calls `use` with the loader of one row of one channel.
+inline bool is_rgbe(const RowBand& band) {
+  return band.channels[0].type == SampleType::rgbe_floor ||
+         band.channels[0].type == SampleType::rgbe_center;
+}
+
+// Calls `use` with the loader of one row of one channel. `scales`: of the row, for Radiance texels.
 template <typename Use>
-HWY_INLINE void with_samples(const RowBand& band, int row, int channel, const Use& use) {
+HWY_INLINE void with_samples(const RowBand& band, int row, int channel, const float* scales,
+                             const Use& use) {
   const Plane& plane = band.channels[channel];
   const std::byte* samples = plane.row(row);
   switch (plane.type) {
@@ -147,9 +173,9 @@ HWY_INLINE void with_samples(const RowBand& band, int row, int channel, const Us
     case SampleType::uint32:
       return use(Uint32Samples{samples});
     case SampleType::rgbe_floor:
-      return use(RgbeSamples<0>{samples, band.exponent.row(row)});
+      return use(RgbeSamples<0>{samples, scales});
     case SampleType::rgbe_center:
-      return use(RgbeSamples<1>{samples, band.exponent.row(row)});
+      return use(RgbeSamples<1>{samples, scales});
   }
 }
 

@@ -3,11 +3,67 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cctype>
 #include <cstdint>
 
+#include "kernels/dispatch.h"
+
 namespace shoal::kernels {
 namespace {
+
+// The target of a slot, as Highway numbers them; see the comments of its HWY_CHOOSE_TARGET_LIST.
+std::int64_t target_of(std::size_t slot) {
+  if (slot + 1 < kTargetSlots) {
+    return std::int64_t{1} << (HWY_HIGHEST_TARGET_BIT + 1 - HWY_MAX_DYNAMIC_TARGETS + slot);
+  }
+  constexpr std::int64_t kPortable = HWY_TARGETS & (HWY_EMU128 | HWY_SCALAR);
+  return kPortable != 0 ? kPortable : HWY_STATIC_TARGET;
+}
+
+// Whether this processor and its operating system run code that was compiled for the target: all of
+// the instruction sets that Highway 1.0 enables for it.
+bool processor_runs(std::int64_t target) {
+  if (target >= HWY_STATIC_TARGET) return true;
+#if HWY_ARCH_X86
+  const bool ssse3 = __builtin_cpu_supports("ssse3");
+  const bool sse4 = ssse3 && __builtin_cpu_supports("sse4.1") && __builtin_cpu_supports("sse4.2") &&
+                    __builtin_cpu_supports("pclmul") && __builtin_cpu_supports("aes");
+  const bool avx2 = sse4 && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+                    __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") &&
+                    __builtin_cpu_supports("lzcnt") && __builtin_cpu_supports("f16c");
+  const bool avx3 = avx2 && __builtin_cpu_supports("avx512f") &&
+                    __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&
+                    __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd");
+  switch (target) {
+    case HWY_SSSE3:
+      return ssse3;
+    case HWY_SSE4:
+      return sse4;
+    case HWY_AVX2:
+      return avx2;
+    case HWY_AVX3:
+      return avx3;
+    default:
+      break;
+  }
+#endif
+  return false;
+}
+
+std::vector<std::size_t> runnable_slots() {
+  std::vector<std::size_t> slots;
+  for (std::size_t slot = 0; slot < kTargetSlots; ++slot) {
+    const std::int64_t target = target_of(slot);
+    if ((HWY_TARGETS & target) != 0 && processor_runs(target)) slots.push_back(slot);
+  }
+  return slots;
+}
+
+std::atomic<std::size_t>& chosen_slot() {
+  static std::atomic<std::size_t> chosen{runnable_slots().front()};
+  return chosen;
+}
 
 std::string upper(std::string_view text) {
   std::string result(text);
@@ -15,38 +71,24 @@ std::string upper(std::string_view text) {
   return result;
 }
 
-std::vector<std::int64_t> runnable_targets() {
-  static const std::int64_t supported = hwy::SupportedTargets();
-  std::vector<std::int64_t> targets;
-  // Highway gives better targets lower bits.
-  for (int shift = 0; shift < 63; ++shift) {
-    const std::int64_t bit = std::int64_t{1} << shift;
-    if (HWY_TARGETS & supported & bit) targets.push_back(bit);
-  }
-  return targets;
-}
-
 }  // namespace
+
+std::size_t active_slot() { return chosen_slot().load(std::memory_order_relaxed); }
 
 std::vector<std::string> available_targets() {
   std::vector<std::string> names;
-  for (const std::int64_t target : runnable_targets()) names.emplace_back(hwy::TargetName(target));
+  for (const std::size_t slot : runnable_slots()) {
+    names.emplace_back(hwy::TargetName(target_of(slot)));
+  }
   return names;
 }
 
-std::string active_target() {
-  const auto targets = runnable_targets();
-  const std::int64_t enabled = hwy::SupportedTargets();
-  const auto active = std::ranges::find_if(targets, [&](std::int64_t t) { return enabled & t; });
-  return hwy::TargetName(active == targets.end() ? HWY_STATIC_TARGET : *active);
-}
+std::string active_target() { return hwy::TargetName(target_of(active_slot())); }
 
 Status force_target(std::string_view name) {
-  runnable_targets();  // remembers what the processor supports before the choice narrows it
-  for (const std::int64_t target : runnable_targets()) {
-    if (upper(name) != upper(hwy::TargetName(target))) continue;
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(target);
+  for (const std::size_t slot : runnable_slots()) {
+    if (upper(name) != hwy::TargetName(target_of(slot))) continue;
+    chosen_slot() = slot;
     return {};
   }
   std::string known;

@@ -113,7 +113,7 @@ PolicyRow PanoramaProjection::Impl::treat(const RowBand& band, int scanline,
   treated.channel_count = band.channel_count;
   for (int c = 0; c < band.channel_count; ++c) {
     treated.channels[c] = worker.samples.span().subspan(c * width, width);
-    kernels::widen_row(band, scanline, c, treated.channels[c].data());
+    kernels::widen_row(band, scanline, c, worker.scratch, treated.channels[c].data());
   }
   const ScanlinePlace place = place_of(band.row_begin + scanline);
   const double edge_weight = column_angles(grid).edge_weight;

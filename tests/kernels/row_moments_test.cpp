@@ -176,7 +176,8 @@ TEST(WidenRow, IsExactForEveryHalf) {
       0, 1, 0x10000, 1, {Plane{std::as_bytes(std::span(bits)).data(), 0, SampleType::half}}, {}};
   test::for_every_target([&] {
     std::vector<float> out(bits.size());
-    widen_row(band, 0, 0, out.data());
+    RowMomentScratch scratch;
+    widen_row(band, 0, 0, scratch, out.data());
     for (std::size_t i = 0; i < bits.size(); ++i) {
       if ((i >> 10 & 31) == 31) {
         EXPECT_FALSE(std::isfinite(out[i]));
@@ -200,7 +201,8 @@ TEST(WidenRow, IsExactForEveryRadianceTexel) {
     band.exponent = {std::as_bytes(std::span(exponents)).data(), 0, type};
     test::for_every_target([&] {
       std::vector<float> out(0x10000);
-      widen_row(band, 0, 0, out.data());
+      RowMomentScratch scratch;
+      widen_row(band, 0, 0, scratch, out.data());
       for (int i = 0; i < 0x10000; ++i) {
         EXPECT_EQ(out[i], test::rgbe_value(mantissas[i], exponents[i], type)) << i;
       }
