@@ -175,7 +175,8 @@ void ExrContext::forget_messages() {
 }
 
 Error ExrContext::failure(exr_result_t result, const std::string& where) {
-  Error error{ErrorCode::malformed, messages.first, where, ""};
+  Error error{ErrorCode::malformed, messages.first, where,
+              "OpenEXR refuses it: the file is damaged, or was never whole; copy or write it again"};
   if (error.what.empty()) error.what = exr_get_default_error_message(result);
   // The library quotes names out of the file; what a terminal would obey stays out of messages.
   std::replace_if(

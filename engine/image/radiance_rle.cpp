@@ -47,25 +47,31 @@ inline void fill_run(std::uint8_t* to, std::uint8_t value, std::ptrdiff_t n) {
   std::memset(to + 64, value, 64);
 }
 
-ScanlineResult expand_component(Input& in, std::uint8_t* out, int width) {
-  std::uint8_t* const out_end = out + width;
+enum class Runs { expand, skip };
+
+// One component of a scanline in the new encoding. Skipping reads nothing but the codes.
+template <Runs kRuns>
+ScanlineResult take_component(Input& in, std::uint8_t* out, int width) {
+  std::ptrdiff_t left = width;
   const std::uint8_t* at = in.at;
-  while (out < out_end) {
+  while (left > 0) {
     if (in.end - at < 2) return kCutShort;
     const int code = at[0];
     const bool is_run = code > 128;
     const std::ptrdiff_t n = is_run ? code - 128 : code;
     if (n == 0) return broken("has a run of no pixels");
-    if (n > out_end - out) return broken("has a run that goes beyond its end");
-    if (is_run) {
-      fill_run(out, at[1], n);
-      at += 2;
-    } else {
-      if (in.end - at < 1 + n) return kCutShort;
-      copy_run(out, at + 1, n);
-      at += 1 + n;
+    if (n > left) return broken("has a run that goes beyond its end");
+    if (!is_run && in.end - at < 1 + n) return kCutShort;
+    if constexpr (kRuns == Runs::expand) {
+      if (is_run) {
+        fill_run(out, at[1], n);
+      } else {
+        copy_run(out, at + 1, n);
+      }
+      out += n;
     }
-    out += n;
+    at += is_run ? 2 : 1 + n;
+    left -= n;
   }
   in.at = at;
   return {};
@@ -162,11 +168,9 @@ class PixelExpander {
   int shift_ = 0;  // of the next repeat mark's count
 };
 
-}  // namespace
-
-ScanlineResult expand_radiance_scanline(std::span<const std::uint8_t> input, int width,
-                                        DataSize data_size,
-                                        const std::array<std::uint8_t*, 4>& planes) {
+template <Runs kRuns>
+ScanlineResult take_scanline(std::span<const std::uint8_t> input, int width, DataSize data_size,
+                             const std::array<std::uint8_t*, 4>& planes) {
   Input in{input.data(), input.data() + input.size()};
   if (in.left() < 4) return kCutShort;
   const bool looks_new = width >= kMinNewWidth && width <= kMaxNewWidth && in.at[0] == 2 &&
@@ -176,15 +180,33 @@ ScanlineResult expand_radiance_scanline(std::span<const std::uint8_t> input, int
     return broken("states another width than the header");
   }
   if (!is_new) {
+    const std::ptrdiff_t flat_bytes = 4 * static_cast<std::ptrdiff_t>(width);
+    if (kRuns == Runs::skip && data_size == DataSize::of_flat && in.left() >= flat_bytes) {
+      return {ScanlineState::whole, static_cast<std::size_t>(flat_bytes), ""};
+    }
     auto result = PixelExpander(in, width, data_size, planes).expand();
     return result.state == ScanlineState::whole ? whole(input, in) : result;
   }
   in.at += 4;
   for (std::uint8_t* plane : planes) {
-    auto result = expand_component(in, plane, width);
+    auto result = take_component<kRuns>(in, plane, width);
     if (result.state != ScanlineState::whole) return result;
   }
   return whole(input, in);
+}
+
+}  // namespace
+
+ScanlineResult expand_radiance_scanline(std::span<const std::uint8_t> input, int width,
+                                        DataSize data_size,
+                                        const std::array<std::uint8_t*, 4>& planes) {
+  return take_scanline<Runs::expand>(input, width, data_size, planes);
+}
+
+ScanlineResult skip_radiance_scanline(std::span<const std::uint8_t> input, int width,
+                                      DataSize data_size,
+                                      const std::array<std::uint8_t*, 4>& planes) {
+  return take_scanline<Runs::skip>(input, width, data_size, planes);
 }
 
 std::uint64_t smallest_radiance_scanline(int width) {

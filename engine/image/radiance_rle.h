@@ -46,6 +46,12 @@ ScanlineResult expand_radiance_scanline(std::span<const std::uint8_t> input, int
                                         DataSize data_size,
                                         const std::array<std::uint8_t*, 4>& planes);
 
+// Finds the end of the scanline at the front of `input` without expanding it, where its encoding
+// allows; else it is expanded into `planes`. As expand_radiance_scanline in all else.
+ScanlineResult skip_radiance_scanline(std::span<const std::uint8_t> input, int width,
+                                      DataSize data_size,
+                                      const std::array<std::uint8_t*, 4>& planes);
+
 // The fewest bytes that any encoding needs for a scanline of `width` >= 1 pixels.
 [[nodiscard]] std::uint64_t smallest_radiance_scanline(int width);
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <mutex>
+#include <vector>
 
 #include "core/aligned_buffer.h"
 #include "core/input_file.h"
@@ -17,13 +19,49 @@ constexpr std::size_t kWindowBytes = std::size_t{1} << 18;     // of the file, s
 constexpr std::int64_t kBandBytes = std::int64_t{1} << 18;     // all planes of a band, if not asked
 constexpr std::int64_t kMaxBandBytes = std::int64_t{1} << 26;  // whatever is asked
 
-// What a source and its readers share, and nobody changes.
+// Where bands begin in the file, as far as anybody has come. A scanline's end is known only to who
+// has gone through it, so whoever wants a band farther on goes through those before, one at a time.
+class BandStarts {
+ public:
+  explicit BandStarts(std::uint64_t first) : offsets_{first} {}
+
+  // The offset of band `index`. `next_start(band, offset)` finds where the band after `band`
+  // begins.
+  template <typename NextStart>
+  Result<std::uint64_t> find(int index, const NextStart& next_start) {
+    const std::scoped_lock lock(mutex_);
+    while (static_cast<int>(offsets_.size()) <= index) {
+      const int last = static_cast<int>(offsets_.size()) - 1;
+      SHOAL_ASSIGN_OR_RETURN(offset, next_start(last, offsets_[last]));
+      offsets_.push_back(offset);
+    }
+    return offsets_[index];
+  }
+
+  // Somebody has read band `index - 1` and so knows.
+  void tell(int index, std::uint64_t offset) {
+    const std::scoped_lock lock(mutex_);
+    if (static_cast<int>(offsets_.size()) == index) offsets_.push_back(offset);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::uint64_t> offsets_;
+};
+
+// What a source and its readers share; only the starts change.
 struct RadianceFile {
   InputFile file;
   RadianceHeader header;
   SampleType sample_type = SampleType::rgbe_floor;
   DataSize data_size = DataSize::any;
   int rows_per_band = 0;
+  std::unique_ptr<BandStarts> starts;
+
+  [[nodiscard]] int band_begin(int band) const { return band * rows_per_band; }
+  [[nodiscard]] int band_end(int band) const {
+    return std::min(band_begin(band) + rows_per_band, header.scanline_count);
+  }
 };
 
 // A part of the file in memory that moves forward over it.
@@ -35,7 +73,17 @@ class Window {
     return {buffer_.data() + begin_, end_ - begin_};
   }
 
+  // Where bytes() begin in the file.
+  [[nodiscard]] std::uint64_t offset() const { return next_offset_ - (end_ - begin_); }
+
   void consume(std::size_t count) { begin_ += count; }
+
+  // Goes on from `offset`; free where the window is there already.
+  void move_to(std::uint64_t offset) {
+    if (offset == this->offset()) return;
+    begin_ = end_ = 0;
+    next_offset_ = offset;
+  }
 
   // Reads on behind what is left, with more room if it is much already. Returns how many bytes
   // came; 0 at the end of the file.
@@ -79,49 +127,63 @@ class RadianceReader final : public BandReader {
   }
 
   Result<RowBand> read(int index) override {
-    const int begin = scanlines_read_;
-    if (begin >= count() || index != begin / picture_->rows_per_band) {
-      return Error{ErrorCode::internal,
-                   fmt::format("band {} of a Radiance picture was asked for out of order", index),
-                   picture_->file.path(), ""};
+    const int begin = picture_->band_begin(index);
+    const int end = picture_->band_end(index);
+    for (auto& plane : planes_) {
+      plane.resize_uninitialised(static_cast<std::size_t>(end - begin) * stride_);
     }
-    const int end = std::min(begin + picture_->rows_per_band, count());
-    const auto rows = static_cast<std::size_t>(end - begin);
-    for (auto& plane : planes_) plane.resize_uninitialised(rows * stride_);
-    for (; scanlines_read_ < end; ++scanlines_read_) {
-      const auto offset = static_cast<std::size_t>(scanlines_read_ - begin) * stride_;
-      SHOAL_RETURN_IF_ERROR(
-          read_scanline({planes_[0].data() + offset, planes_[1].data() + offset,
-                         planes_[2].data() + offset, planes_[3].data() + offset}));
+    SHOAL_ASSIGN_OR_RETURN(start, picture_->starts->find(index, [this](int band, std::uint64_t at) {
+      return end_of_band(band, at);
+    }));
+    window_.move_to(start);
+    for (int scanline = begin; scanline < end; ++scanline) {
+      SHOAL_RETURN_IF_ERROR(take_scanline(scanline, scanline - begin, expand_radiance_scanline));
     }
+    picture_->starts->tell(index + 1, window_.offset());
     return band(begin, end);
   }
 
  private:
+  using TakeScanline = decltype(&expand_radiance_scanline);
+
+  // Where the band after `band` begins, `band` itself beginning at `start`.
+  Result<std::uint64_t> end_of_band(int band, std::uint64_t start) {
+    window_.move_to(start);
+    for (int scanline = picture_->band_begin(band); scanline < picture_->band_end(band);
+         ++scanline) {
+      SHOAL_RETURN_IF_ERROR(take_scanline(scanline, 0, skip_radiance_scanline));
+    }
+    return window_.offset();
+  }
+
   [[nodiscard]] int count() const { return picture_->header.scanline_count; }
 
-  // A scanline that the window's end cuts is expanded again when more of the file is there.
-  Status read_scanline(const std::array<std::uint8_t*, 4>& planes) {
+  // A scanline that the window's end cuts is taken again when more of the file is there.
+  Status take_scanline(int scanline, int buffer_row, TakeScanline take) {
+    const std::size_t offset = static_cast<std::size_t>(buffer_row) * stride_;
+    const std::array<std::uint8_t*, 4> planes = {
+        planes_[0].data() + offset, planes_[1].data() + offset, planes_[2].data() + offset,
+        planes_[3].data() + offset};
     for (;;) {
-      const auto result = expand_radiance_scanline(window_.bytes(), picture_->header.scanline_width,
-                                                   picture_->data_size, planes);
+      const auto result =
+          take(window_.bytes(), picture_->header.scanline_width, picture_->data_size, planes);
       if (result.state == ScanlineState::whole) {
         window_.consume(result.bytes);
         return {};
       }
-      if (result.state == ScanlineState::broken) return failure(result.fault);
+      if (result.state == ScanlineState::broken) return failure(scanline, result.fault);
       SHOAL_ASSIGN_OR_RETURN(got, window_.extend());
-      if (got == 0) return failure("is cut off by the end of the file");
+      if (got == 0) return failure(scanline, "is cut off by the end of the file");
     }
   }
 
-  [[nodiscard]] Error failure(std::string_view fault) const {
+  [[nodiscard]] Error failure(int scanline, std::string_view fault) const {
     const auto& header = picture_->header;
-    const int place = header.scanlines_reversed ? count() - 1 - scanlines_read_ : scanlines_read_;
+    const int place = header.scanlines_reversed ? count() - 1 - scanline : scanline;
     return Error{ErrorCode::malformed,
                  fmt::format("{} {} {}; {} of {} are good",
                              header.scan_axis == ScanAxis::rows ? "row" : "column", place, fault,
-                             scanlines_read_, count()),
+                             scanline, count()),
                  fmt::format("{}:{}", picture_->file.path(), place),
                  "copy or write the file again"};
   }
@@ -150,7 +212,6 @@ class RadianceReader final : public BandReader {
   Window window_;
   std::size_t stride_ = 0;
   std::array<AlignedBuffer<std::uint8_t>, 4> planes_;
-  int scanlines_read_ = 0;
 };
 
 int choose_rows_per_band(const RadianceHeader& header, int wish) {
@@ -172,7 +233,7 @@ PictureInfo describe(const RadianceFile& picture) {
   info.samples_reversed = header.samples_reversed;
   info.rows_per_band = picture.rows_per_band;
   info.band_count = (header.scanline_count - 1) / picture.rows_per_band + 1;
-  info.band_access = BandAccess::sequential;
+  info.band_access = BandAccess::random;
   info.to_linear_rec709 = header.to_linear_rec709;
   info.warnings = header.warnings;
   return info;
@@ -207,6 +268,7 @@ Result<std::unique_ptr<PanoramaSource>> open_radiance(const std::filesystem::pat
       4 * static_cast<std::uint64_t>(header.scanline_count) * header.scanline_width;
   if (file.size() - header.data_offset == flat_bytes) picture->data_size = DataSize::of_flat;
   picture->rows_per_band = choose_rows_per_band(header, options.rows_per_band);
+  picture->starts = std::make_unique<BandStarts>(header.data_offset);
   picture->file = std::move(file);
   picture->header = std::move(header);
   return std::unique_ptr<PanoramaSource>(std::make_unique<RadianceSource>(std::move(picture)));
