@@ -4,12 +4,32 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <functional>
 
 #include "app/messages.h"
 #include "batch/scheduler.h"
 #include "kernels/targets.h"
 
 namespace shoal {
+namespace {
+
+template <typename T>
+void add_once(std::vector<T>& list, T value) {
+  if (std::ranges::find(list, value) == list.end()) list.push_back(value);
+}
+
+// What the manifest's reader has made sure of for the manifest as it stands.
+Status check_degrees(const Manifest& manifest) {
+  if (std::ranges::find(manifest.tables, TableFormat::npy) == manifest.tables.end()) return {};
+  const auto degree = [](const PanoramaEntry& entry) { return entry.projection.degree; };
+  const bool differ = std::ranges::adjacent_find(manifest.entries, std::not_equal_to{}, degree) !=
+                      manifest.entries.end();
+  if (!differ) return {};
+  return Error{ErrorCode::usage, "an npy table has one degree, but the panoramas have several",
+               manifest.path.string(), "give one with --degree, or leave npy out"};
+}
+
+}  // namespace
 
 void add_compute_options(CLI::App& command, ComputeOptions& options) {
   command.add_option("-j,--threads", options.threads, "Workers; as many as processors by default")
@@ -21,8 +41,10 @@ void add_compute_options(CLI::App& command, ComputeOptions& options) {
   command.add_option("--degree", options.degree, "Highest degree L, 0 to 64")
       ->check(CLI::Range(0, kMaxDegree));
   command.add_option("--quadrature", options.quadrature, "texel, midpoint or fejer");
-  command.add_option("--quantity", options.quantities,
-                     "radiance, irradiance or irradiance-over-pi; may be repeated");
+  command
+      .add_option("--quantity", options.quantities,
+                  "radiance, irradiance or irradiance-over-pi; may be repeated")
+      ->allow_extra_args(false);
   command.add_option("--frame", options.frame,
                      "Frame of the coefficients: a name, or where the panorama's centre, right and "
                      "up point, such as +z,-x,+y");
@@ -36,13 +58,15 @@ Result<ComputeChoice> understand(const ComputeOptions& options) {
   if (!options.target.empty()) SHOAL_RETURN_IF_ERROR(kernels::force_target(options.target));
   if (!options.quadrature.empty()) {
     SHOAL_ASSIGN_OR_RETURN(quadrature, parse_quadrature(options.quadrature));
+    if (quadrature == Quadrature::clenshaw_curtis) {
+      return Error{ErrorCode::usage, "clenshaw-curtis cannot be asked for", "",
+                   "it is used by itself where a file's border pixels lie on the poles"};
+    }
     choice.quadrature = quadrature;
   }
   for (const std::string& name : options.quantities) {
     SHOAL_ASSIGN_OR_RETURN(quantity, parse_quantity(name));
-    if (std::ranges::find(choice.quantities, quantity) == choice.quantities.end()) {
-      choice.quantities.push_back(quantity);
-    }
+    add_once(choice.quantities, quantity);
   }
   if (!options.frame.empty()) {
     SHOAL_ASSIGN_OR_RETURN(frame, parse_frame(options.frame));
@@ -50,13 +74,13 @@ Result<ComputeChoice> understand(const ComputeOptions& options) {
   }
   for (const std::string& name : options.formats) {
     for (const TableFormat format : {TableFormat::csv, TableFormat::json, TableFormat::npy}) {
-      if (name == name_of(format)) choice.formats.push_back(format);
+      if (name == name_of(format)) add_once(choice.formats, format);
     }
   }
   return choice;
 }
 
-void override_manifest(const ComputeChoice& choice, Manifest& manifest) {
+Status override_manifest(const ComputeChoice& choice, Manifest& manifest) {
   for (PanoramaEntry& entry : manifest.entries) {
     if (choice.degree) entry.projection.degree = *choice.degree;
     if (choice.quadrature) entry.projection.quadrature = *choice.quadrature;
@@ -68,11 +92,15 @@ void override_manifest(const ComputeChoice& choice, Manifest& manifest) {
   }
   if (!choice.quantities.empty()) manifest.quantities = choice.quantities;
   if (!choice.formats.empty()) manifest.tables = choice.formats;
+  return check_degrees(manifest);
 }
 
 void add_manifest_options(CLI::App& command, ManifestOptions& options) {
   command.add_option("MANIFEST", options.path, "The manifest, a YAML file")->required();
-  command.add_option("--set", options.sets, "NAME=VALUE: gives a variable of the manifest a value")
+  command
+      .add_option("--set", options.sets,
+                  "NAME=VALUE: gives a variable of the manifest a value; may be repeated")
+      ->allow_extra_args(false)
       ->check([](const std::string& text) {
         return text.find('=') == std::string::npos || text.front() == '='
                    ? "\"" + text + "\" is not NAME=VALUE"

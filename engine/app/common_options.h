@@ -44,8 +44,8 @@ struct ComputeChoice {
 // Forces the SIMD target, too. Errors: usage.
 Result<ComputeChoice> understand(const ComputeOptions& options);
 
-// Lets what the command line says win over the manifest.
-void override_manifest(const ComputeChoice& choice, Manifest& manifest);
+// Lets what the command line says win over the manifest. Error: usage (the two don't go together).
+Status override_manifest(const ComputeChoice& choice, Manifest& manifest);
 
 // Which manifest, and how it is read: `run` and `check`.
 struct ManifestOptions {

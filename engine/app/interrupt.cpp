@@ -15,7 +15,8 @@ void request_stop(int) { stop_requested = true; }
 std::atomic<bool>& stop_on_interrupt() {
   struct sigaction action {};
   action.sa_handler = request_stop;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  // Reads and writes go on: the flag is looked at between bands.
+  action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);

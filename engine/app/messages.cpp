@@ -31,12 +31,15 @@ std::string counted(std::int64_t count, std::string_view what) {
 
 }  // namespace
 
-void print_error(const Error& error) { print_labelled(Style::red, "error:", error.text()); }
+void print_error(const Error& error) {
+  print_labelled(Style::red, "error:", printable(error.text()));
+}
 
 void print_warnings(const std::vector<PanoramaNote>& warnings) {
   for (std::size_t i = 0; i < warnings.size() && i < kMaxWarnings; ++i) {
-    print_labelled(Style::yellow, "warning:",
-                   fmt::format("{}: {}", printable(warnings[i].panorama), warnings[i].text));
+    print_labelled(
+        Style::yellow, "warning:",
+        fmt::format("{}: {}", printable(warnings[i].panorama), printable(warnings[i].text)));
   }
   if (warnings.size() > kMaxWarnings) {
     print_labelled(

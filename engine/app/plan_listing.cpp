@@ -21,16 +21,6 @@ std::string_view verb(ItemWork work) {
   return "";
 }
 
-Result<Plan> plan_against_store(const Manifest& manifest, const PlanOptions& options) {
-  const auto path = manifest.output / kStoreFileName;
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored)) return make_plan(manifest, nullptr, options);
-  SHOAL_ASSIGN_OR_RETURN(store, Store::open(path, Store::Access::read));
-  return make_plan(manifest, &store, options);
-}
-
-}  // namespace
-
 PlanOptions plan_options(const ManifestOptions& options) {
   PlanOptions plan;
   plan.only = options.only;
@@ -39,8 +29,17 @@ PlanOptions plan_options(const ManifestOptions& options) {
   return plan;
 }
 
+}  // namespace
+
+Result<Plan> plan_against_store(const Manifest& manifest, const ManifestOptions& options) {
+  auto store = Store::open(manifest.output / kStoreFileName, Store::Access::read);
+  const bool is_first = !store && store.error().code == ErrorCode::not_found;
+  if (!store && !is_first) return std::move(store).error();
+  return make_plan(manifest, is_first ? nullptr : &*store, plan_options(options));
+}
+
 int list_plan(const Manifest& manifest, const ManifestOptions& options) {
-  const Result<Plan> plan = plan_against_store(manifest, plan_options(options));
+  const Result<Plan> plan = plan_against_store(manifest, options);
   if (!plan) {
     print_error(plan.error());
     return kExitUsage;

@@ -1,4 +1,4 @@
-// The plan of a run as a listing, for `check` and for `run --dry-run`.
+// The plan of a run, and its listing for `check` and for `run --dry-run`. Writes nothing.
 #pragma once
 
 #include "app/common_options.h"
@@ -6,10 +6,10 @@
 
 namespace shoal {
 
-[[nodiscard]] PlanOptions plan_options(const ManifestOptions& options);
+// Against the store, if there is one. Errors: as make_plan().
+Result<Plan> plan_against_store(const Manifest& manifest, const ManifestOptions& options);
 
-// Makes the plan against the store, if there is one, and prints it on standard output. Returns the
-// exit status. Writes nothing.
+// Makes the plan and prints it on standard output. Returns the exit status.
 [[nodiscard]] int list_plan(const Manifest& manifest, const ManifestOptions& options);
 
 }  // namespace shoal

@@ -43,7 +43,8 @@ class OrderedTable {
  private:
   void print(const std::string& file, Result<Projection>& result) {
     if (!result) {
-      failures_.push_back({file, result.error().text()});
+      const bool interrupted = result.error().code == ErrorCode::interrupted;
+      if (!interrupted) failures_.push_back({file, result.error().text()});
       return;
     }
     for (const std::string& warning : result->warnings) warnings_.push_back({file, warning});
@@ -97,7 +98,6 @@ int project_files(const std::vector<std::string>& files, const ComputeChoice& ch
   };
   steps.tick = [] {};
   run_jobs(files.size(), choice.threads, stop, pixels_done, steps);
-  if (stop) return kExitInterrupted;
   Status written = table.write_status() ? Status() : Status(table.write_status().error());
   if (written) {
     if (auto committed = writer.commit(); !committed) written = std::move(committed).error();
@@ -105,6 +105,7 @@ int project_files(const std::vector<std::string>& files, const ComputeChoice& ch
   print_warnings(table.warnings());
   print_failures(table.failures());
   if (!written) print_error(written.error());
+  if (stop) return kExitInterrupted;
   return table.failures().empty() && written ? kExitOk : kExitFailed;
 }
 

@@ -29,18 +29,40 @@ void explain_plan(const Plan& plan) {
   }
 }
 
-Result<RunSummary> plan_and_run(const RunCommand& command, const Manifest& manifest,
-                                const RunSettings& settings, ProgressMode mode) {
+struct Prepared {
+  Plan plan;
+  Store store;
+};
+
+// The plan comes first: where it cannot be made, nothing is written at all.
+Result<Prepared> prepare(const RunCommand& command, const Manifest& manifest) {
+  SHOAL_ASSIGN_OR_RETURN(plan, plan_against_store(manifest, command.manifest));
   SHOAL_ASSIGN_OR_RETURN(store,
                          Store::open(manifest.output / kStoreFileName, Store::Access::write));
-  SHOAL_ASSIGN_OR_RETURN(plan, make_plan(manifest, &store, plan_options(command.manifest)));
   if (command.explain) explain_plan(plan);
-  Progress progress(mode);
-  return run_plan(manifest, plan, store, settings, progress, stop_on_interrupt());
+  return Prepared{std::move(plan), std::move(store)};
 }
 
-int exit_status(const Error& error) {
-  return error.code == ErrorCode::usage ? kExitUsage : kExitFailed;
+int run_prepared(Prepared& prepared, const RunCommand& command, const Manifest& manifest,
+                 const ComputeChoice& choice, ProgressMode mode) {
+  RunSettings settings;
+  settings.threads = choice.threads;
+  if (command.fail_fast) settings.on_failure = RunSettings::OnFailure::stop;
+  Progress progress(mode);
+  const Result<RunSummary> summary =
+      run_plan(manifest, prepared.plan, prepared.store, settings, progress, stop_on_interrupt());
+  if (!summary) {
+    print_error(summary.error());
+    return kExitFailed;
+  }
+  // The events have told programs all of it.
+  if (mode != ProgressMode::json) {
+    print_warnings(summary->warnings);
+    print_failures(summary->failures);
+    print_summary(*summary, manifest);
+  }
+  if (summary->interrupted) return kExitInterrupted;
+  return summary->failures.empty() ? kExitOk : kExitFailed;
 }
 
 int run(const RunCommand& command) {
@@ -52,22 +74,17 @@ int run(const RunCommand& command) {
   }
   std::optional<Manifest> manifest = load_and_report(command.manifest);
   if (!manifest) return kExitUsage;
-  override_manifest(*choice, *manifest);
-  if (command.dry_run) return list_plan(*manifest, command.manifest);
-
-  RunSettings settings;
-  settings.threads = choice->threads;
-  if (command.fail_fast) settings.on_failure = RunSettings::OnFailure::stop;
-  const Result<RunSummary> summary = plan_and_run(command, *manifest, settings, *mode);
-  if (!summary) {
-    print_error(summary.error());
-    return exit_status(summary.error());
+  if (const Status status = override_manifest(*choice, *manifest); !status) {
+    print_error(status.error());
+    return kExitUsage;
   }
-  print_warnings(summary->warnings);
-  print_failures(summary->failures);
-  print_summary(*summary, *manifest);
-  if (summary->interrupted) return kExitInterrupted;
-  return summary->failures.empty() ? kExitOk : kExitFailed;
+  if (command.dry_run) return list_plan(*manifest, command.manifest);
+  Result<Prepared> prepared = prepare(command, *manifest);
+  if (!prepared) {
+    print_error(prepared.error());
+    return kExitUsage;
+  }
+  return run_prepared(*prepared, command, *manifest, *choice, *mode);
 }
 
 }  // namespace
@@ -78,7 +95,10 @@ void add_run_command(CLI::App& app, Action& action) {
   auto options = std::make_shared<RunCommand>();
   add_manifest_options(*command, options->manifest);
   add_compute_options(*command, options->compute);
-  command->add_option("--format", options->compute.formats, "Tables to write: csv, json, npy")
+  command
+      ->add_option("--format", options->compute.formats,
+                   "Tables to write: csv, json, npy; may be repeated")
+      ->allow_extra_args(false)
       ->check(CLI::IsMember({"csv", "json", "npy"}));
   command->add_flag("-n,--dry-run", options->dry_run, "Print the plan, do nothing");
   command->add_flag("--explain", options->explain, "Say why each panorama runs");

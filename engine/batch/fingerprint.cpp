@@ -45,7 +45,7 @@ E value_in(const std::array<Named<E>, kCount>& names, const std::string& name) {
 // Texts are quoted by their length, so that no two lists of parameters read the same.
 std::string counted(std::string_view text) { return fmt::format("{}:{}", text.size(), text); }
 
-std::string linear_text(const PanoramaEntry& entry, const Variant& variant) {
+std::string colour_text(const PanoramaEntry& entry, const Variant& variant) {
   const ColourOperations colour = colour_of(entry, variant);
   std::string text =
       fmt::format("exposure {} scale {} matrix", colour.exposure_stops, colour.scale);
@@ -57,7 +57,11 @@ std::string linear_text(const PanoramaEntry& entry, const Variant& variant) {
   if (colour.white) {
     text += fmt::format(" white {} {} {}", colour.white->r, colour.white->g, colour.white->b);
   }
-  return text + " frame " + text_of(frame_of(entry, variant)) + "\n";
+  return text + "\n";
+}
+
+std::string frame_text(const PanoramaEntry& entry, const Variant& variant) {
+  return "frame " + text_of(frame_of(entry, variant)) + "\n";
 }
 
 }  // namespace
@@ -110,12 +114,14 @@ std::string output_hash(const Manifest& manifest, const PanoramaEntry& entry) {
   if (manifest.maps.empty()) return hash_text("");
   std::string text;
   for (const Variant& variant : manifest.variants) {
-    text += linear_text(entry, variant);
+    text += counted(variant.name) + " " + colour_text(entry, variant);
     for (const MapRequest& map : manifest.maps) {
       text += fmt::format("map {} layout {} size {} {} format {} samples {} faces {} stops {}\n",
                           name_of(map.kind), static_cast<int>(map.layout), map.width, map.height,
                           static_cast<int>(map.format), static_cast<int>(map.samples),
                           static_cast<int>(map.faces), map.preview_stops);
+      // Equirect maps lie as their panoramas do, whatever the frame.
+      if (map.layout == MapLayout::cube) text += frame_text(entry, variant);
       for (const std::string& file : map_files(manifest, entry, variant, map)) {
         text += counted(file) + "\n";
       }
@@ -127,10 +133,9 @@ std::string output_hash(const Manifest& manifest, const PanoramaEntry& entry) {
 std::string table_hash(const Manifest& manifest, const PanoramaEntry& entry) {
   std::string text = counted(entry.name) + "\n";
   for (const Variant& variant : manifest.variants) {
-    text += counted(variant.name) + " " + linear_text(entry, variant);
+    text += counted(variant.name) + " " + colour_text(entry, variant) + frame_text(entry, variant);
   }
   for (const Quantity quantity : manifest.quantities) text += std::string(name_of(quantity)) + "\n";
-  for (const TableFormat format : manifest.tables) text += std::string(name_of(format)) + "\n";
   return hash_text(text);
 }
 

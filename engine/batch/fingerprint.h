@@ -30,7 +30,8 @@ Result<ProjectionParameters> parse_parameters(const std::string& text);
 // Of what a panorama's own files depend on besides its projection.
 [[nodiscard]] std::string output_hash(const Manifest& manifest, const PanoramaEntry& entry);
 
-// Of what one row of the tables depends on besides the projection: for all variants and quantities.
+// Of what a panorama's rows in the tables depend on besides its projection: its name, all variants
+// and quantities.
 [[nodiscard]] std::string table_hash(const Manifest& manifest, const PanoramaEntry& entry);
 
 }  // namespace shoal

@@ -76,13 +76,15 @@ Result<Coefficients> variant_radiance(const Projection& projection, const Panora
 
 Result<std::vector<OutputRecord>> write_item_maps(const Manifest& manifest,
                                                   const PanoramaEntry& entry,
-                                                  const Projection& projection) {
+                                                  const Projection& projection,
+                                                  const std::atomic<bool>& stop) {
   std::vector<OutputRecord> records;
   if (manifest.maps.empty()) return records;
   for (const Variant& variant : manifest.variants) {
     SHOAL_ASSIGN_OR_RETURN(radiance, variant_radiance(projection, entry, variant));
     const Frame frame = frame_of(entry, variant);
     for (const MapRequest& map : manifest.maps) {
+      if (stop) return Error{ErrorCode::interrupted, "interrupted", entry.file.string(), ""};
       const std::vector<std::string> names = map_files(manifest, entry, variant, map);
       SHOAL_RETURN_IF_ERROR(write_map_files(manifest, map,
                                             map_file(entry, variant, map, projection, frame),

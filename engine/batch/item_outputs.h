@@ -2,6 +2,7 @@
 // coefficients.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <vector>
 
@@ -20,10 +21,11 @@ Result<Coefficients> variant_radiance(const Projection& projection, const Panora
                                       const Variant& variant);
 
 // Writes all maps of a panorama. Returns what was written, in the manifest's order. Errors:
-// write_failed, usage (as above).
+// write_failed, usage (as above), interrupted (`stop` is looked at before every map).
 Result<std::vector<OutputRecord>> write_item_maps(const Manifest& manifest,
                                                   const PanoramaEntry& entry,
-                                                  const Projection& projection);
+                                                  const Projection& projection,
+                                                  const std::atomic<bool>& stop);
 
 // Hands `take` the panorama's records for the tables, in their order, stopping at its first error.
 Status make_item_records(const Manifest& manifest, const PanoramaEntry& entry,

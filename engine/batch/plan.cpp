@@ -33,18 +33,22 @@ Result<Known> read_known(Store* store) {
   return known;
 }
 
-// The state of the entry's file with its hash, if the hash is known or `must_know` makes it worth
-// reading the file.
-std::optional<InputState> hashed_input(const PanoramaEntry& entry, const Known& known,
-                                       const PlanOptions& options, InputState state) {
-  const auto found = known.inputs.find(entry.file.string());
+// Gives the item its file's state with the hash: the store's where size and time allow, else from
+// the content. Without one, the run will say what is wrong with the file.
+void find_input(const Known& known, const PlanOptions& options, InputState state,
+                PlannedItem& item) {
+  const auto found = known.inputs.find(stored_path(*item.entry));
   const bool same_time = found != known.inputs.end() && found->second.size == state.size &&
                          found->second.mtime_ns == state.mtime_ns;
-  if (same_time && options.inputs == PlanOptions::Inputs::by_time) return found->second;
-  auto hash = hash_file(entry.file);
-  if (!hash) return std::nullopt;  // the run will say what is wrong with the file
+  if (same_time && options.inputs == PlanOptions::Inputs::by_time) {
+    item.input = found->second;
+    return;
+  }
+  auto hash = hash_file(item.entry->file);
+  if (!hash) return;
   state.content_hash = std::move(*hash);
-  return state;
+  item.input_is_news = found == known.inputs.end() || found->second != state;
+  item.input = std::move(state);
 }
 
 bool outputs_stand(const Manifest& manifest, const ItemState& state) {
@@ -77,7 +81,7 @@ void decide(const Manifest& manifest, const Known& known, const PlanOptions& opt
   if (before.parameters != item.parameters) {
     return needs(ItemWork::all, "its parameters changed");
   }
-  item.input = hashed_input(*item.entry, known, options, *state);
+  find_input(known, options, *state, item);
   if (!item.input) return needs(ItemWork::all, "its file cannot be read");
   if (item.input->content_hash != before.input_hash) {
     return needs(ItemWork::all, "its file's content changed");
@@ -109,6 +113,12 @@ std::int64_t Plan::count(ItemWork work) const {
   return std::ranges::count_if(items, [&](const auto& item) { return item.work == work; });
 }
 
+std::string stored_path(const PanoramaEntry& entry) {
+  std::error_code code;
+  const auto path = std::filesystem::absolute(entry.file, code);
+  return (code ? entry.file : path).lexically_normal().string();
+}
+
 Result<InputState> input_state(const std::filesystem::path& path) {
   struct stat info {};
   if (::stat(path.c_str(), &info) != 0) {
@@ -125,7 +135,9 @@ Result<Plan> make_plan(const Manifest& manifest, Store* store, const PlanOptions
   SHOAL_ASSIGN_OR_RETURN(only, parse_only(options.only));
   SHOAL_ASSIGN_OR_RETURN(known, read_known(store));
   Plan plan;
+  std::size_t named = 0;
   for (const PanoramaEntry& entry : manifest.entries) {
+    if (known.items.contains(entry.name)) ++named;
     if (!is_selected(only, entry)) {
       ++plan.unselected_count;
       continue;
@@ -137,6 +149,7 @@ Result<Plan> make_plan(const Manifest& manifest, Store* store, const PlanOptions
     decide(manifest, known, options, item);
     plan.items.push_back(std::move(item));
   }
+  plan.unnamed_count = static_cast<std::int64_t>(known.items.size() - named);
   if (plan.items.empty()) {
     return Error{ErrorCode::usage, "no panorama has a name or tag like \"" + options.only + "\"",
                  manifest.path.string(), "shoal check lists the names"};

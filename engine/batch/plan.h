@@ -26,6 +26,7 @@ struct PlannedItem {
   std::string reason;               // for people: "new", "its file's content changed", "up to date"
   std::uint64_t input_size = 0;     // bytes; 0 where the file cannot be asked
   std::optional<InputState> input;  // of the file as it is now, where its content's hash is known
+  bool input_is_news = false;       // the store does not know `input` yet
   std::string parameters;           // as of parameter_text()
   std::string output_hash;
 };
@@ -44,6 +45,7 @@ struct PlanOptions {
 struct Plan {
   std::vector<PlannedItem> items;  // the selected entries in manifest order
   std::int64_t unselected_count = 0;
+  std::int64_t unnamed_count = 0;  // panoramas that the store knows and the manifest does not name
 
   [[nodiscard]] std::int64_t count(ItemWork work) const;
 };
@@ -51,6 +53,9 @@ struct Plan {
 // `store`: of an earlier run, or null. Errors: usage (a bad `only`, or one that selects nothing);
 // malformed, unreadable (the store).
 Result<Plan> make_plan(const Manifest& manifest, Store* store, const PlanOptions& options);
+
+// The entry's file as the store knows it: absolute, so that a run from another folder finds it.
+[[nodiscard]] std::string stored_path(const PanoramaEntry& entry);
 
 // Size and modification time of a file, without its hash. Error: not_found, unreadable.
 Result<InputState> input_state(const std::filesystem::path& path);

@@ -57,6 +57,12 @@ std::string_view name_of(PanoramaOutcome outcome) {
   return "";
 }
 
+std::string json_list(const std::vector<std::string>& texts) {
+  std::string list;
+  for (const std::string& text : texts) list += (list.empty() ? "[" : ", ") + json_quoted(text);
+  return list + "]";
+}
+
 }  // namespace
 
 // Throughput and time left. The mean over the whole run: steadier than a recent one, and what the
@@ -131,6 +137,7 @@ void Progress::end_panorama(const PanoramaEvent& event) {
       if (event.outcome == PanoramaOutcome::failed) {
         fields += ", \"error\": " + json_quoted(event.error);
       }
+      if (!event.warnings.empty()) fields += ", \"warnings\": " + json_list(event.warnings);
       emit("panorama", fields);
     }
   }

@@ -6,7 +6,8 @@
 // json   a line an event (JSON Lines), all with "event" and "elapsed" in seconds:
 //          {"event": "start", "version": 1, "elapsed", "panoramas", "up_to_date", "bytes"}
 //          {"event": "panorama", "elapsed", "name", "status": "done|failed|up to date", "seconds",
-//           "pixels", "bytes", "finished", "panoramas"}        failed ones have "error" as well
+//           "pixels", "bytes", "finished", "panoramas"}        failed ones have "error" as well,
+//                                              those with warnings "warnings", a list of sentences
 //          {"event": "message", "elapsed", "text"}
 //          {"event": "end", "elapsed", "done", "failed", "up_to_date", "pixels", "bytes"}
 //        A reader must take keys and events that it does not know.
@@ -22,6 +23,7 @@
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "batch/terminal.h"
 #include "core/result.h"
@@ -51,6 +53,7 @@ struct PanoramaEvent {
   std::int64_t pixels = 0;
   std::uint64_t bytes = 0;  // of its file
   std::string error;        // of a failed one
+  std::vector<std::string> warnings;
 };
 
 class Progress {

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <map>
+#include <functional>
 #include <mutex>
 #include <utility>
 
 #include "batch/fingerprint.h"
 #include "batch/item_outputs.h"
+#include "batch/leftovers.h"
 #include "batch/run_tables.h"
 #include "batch/scheduler.h"
 #include "core/content_hash.h"
@@ -32,6 +33,7 @@ class Run {
       if (item.work != ItemWork::none) items_.push_back(&item);
     }
     began_.resize(items_.size());
+    states_.resize(items_.size());
     notes_.resize(items_.size());
   }
 
@@ -51,7 +53,8 @@ class Run {
   Result<Projection> projection_of(const PlannedItem& item, PanoramaProjection* projection);
   void fail(std::size_t index, const Error& error);
   Status record(const PlannedItem& item, ItemRecord record);
-  Result<InputState> input_of(const PlannedItem& item);
+  Result<InputState> input_of(std::size_t index);
+  void remember(const std::function<Status()>& write);
 
   const Manifest& manifest_;
   Store& store_;
@@ -60,11 +63,13 @@ class Run {
   std::atomic<bool>& stop_;
   std::vector<const PlannedItem*> items_;  // those that have something to do
   std::vector<Clock::time_point> began_;   // one an item; written and read by its workers in turn
+  std::vector<InputState> states_;         // likewise: the files when they were opened
   std::vector<Notes> notes_;
   ProjectionTables tables_;
 
   std::mutex mutex_;  // guards what follows, and the store
   Status store_status_;
+  bool stopped_by_failure_ = false;
   std::int64_t done_count_ = 0;
   std::int64_t pixel_count_ = 0;
   std::uint64_t byte_count_ = 0;
@@ -76,6 +81,7 @@ Result<std::unique_ptr<PanoramaProjection>> Run::open(std::size_t index) {
   began_[index] = Clock::now();
   progress_.begin_panorama(item.entry->name);
   if (item.work == ItemWork::outputs) return std::unique_ptr<PanoramaProjection>();
+  if (auto state = input_state(item.entry->file)) states_[index] = *state;
   return PanoramaProjection::open(item.entry->file, item.entry->read, item.entry->projection,
                                   tables_);
 }
@@ -89,20 +95,38 @@ Result<Projection> Run::projection_of(const PlannedItem& item, PanoramaProjectio
                item.entry->file.string(), "run with --force"};
 }
 
-// The file's state with its hash: known from the plan, or taken now. A file that changes while it
-// is read would be remembered wrongly, so its size and time must still be those from before.
-Result<InputState> Run::input_of(const PlannedItem& item) {
-  if (item.input) return *item.input;
-  SHOAL_ASSIGN_OR_RETURN(state, input_state(item.entry->file));
-  SHOAL_ASSIGN_OR_RETURN(hash, hash_file(item.entry->file));
-  state.content_hash = hash;
-  return state;
+// The file's state with its hash: known from the plan, or taken now. The coefficients of one
+// content must not be remembered as those of another, so the file must still be what was opened.
+Result<InputState> Run::input_of(std::size_t index) {
+  const PlannedItem& item = *items_[index];
+  if (item.work == ItemWork::outputs) return *item.input;
+  InputState opened = states_[index];
+  const auto same_time = [&](const InputState& other) {
+    return other.size == opened.size && other.mtime_ns == opened.mtime_ns;
+  };
+  if (item.input && same_time(*item.input)) {
+    opened.content_hash = item.input->content_hash;
+  } else {
+    SHOAL_ASSIGN_OR_RETURN(hash, hash_file(item.entry->file));
+    opened.content_hash = std::move(hash);
+  }
+  SHOAL_ASSIGN_OR_RETURN(now, input_state(item.entry->file));
+  if (same_time(now)) return opened;
+  return Error{ErrorCode::unreadable, "changed while it was read", item.entry->file.string(),
+               "run again"};
+}
+
+// The first error of the store ends the run. Called with mutex_ held.
+void Run::remember(const std::function<Status()>& write) {
+  if (!store_status_) return;
+  store_status_ = write();
+  if (!store_status_) stop_ = true;
 }
 
 Status Run::record(const PlannedItem& item, ItemRecord record) {
   record.name = item.entry->name;
   record.engine_version = kVersion;
-  record.state.input_path = item.entry->file.string();
+  record.state.input_path = stored_path(*item.entry);
   record.state.parameters = item.parameters;
   record.state.output_hash = item.output_hash;
   record.state.algorithm_version = kAlgorithmVersion;
@@ -112,9 +136,9 @@ Status Run::record(const PlannedItem& item, ItemRecord record) {
 Status Run::complete(std::size_t index, PanoramaProjection* projection) {
   const PlannedItem& item = *items_[index];
   SHOAL_ASSIGN_OR_RETURN(result, projection_of(item, projection));
-  SHOAL_ASSIGN_OR_RETURN(input, input_of(item));
+  SHOAL_ASSIGN_OR_RETURN(input, input_of(index));
   const Clock::time_point write_begin = Clock::now();
-  SHOAL_ASSIGN_OR_RETURN(outputs, write_item_maps(manifest_, *item.entry, result));
+  SHOAL_ASSIGN_OR_RETURN(outputs, write_item_maps(manifest_, *item.entry, result, stop_));
 
   ItemRecord done;
   done.state.status = ItemStatus::done;
@@ -132,13 +156,13 @@ Status Run::complete(std::size_t index, PanoramaProjection* projection) {
                       seconds_since(began_[index]),
                       projected ? result.pixels.pixel_count : 0,
                       projected ? input.size : 0,
-                      ""};
-  notes_[index].warnings = std::move(result.warnings);
+                      "",
+                      result.warnings};
+  notes_[index].warnings = result.warnings;
   {
     const std::scoped_lock lock(mutex_);
-    store_status_ = store_.record_input(item.entry->file.string(), input);
-    if (store_status_) store_status_ = record(item, std::move(done));
-    if (!store_status_) stop_ = true;
+    remember([&] { return store_.record_input(stored_path(*item.entry), input); });
+    remember([&] { return record(item, std::move(done)); });
     ++done_count_;
     pixel_count_ += event.pixels;
     byte_count_ += event.bytes;
@@ -156,11 +180,18 @@ void Run::fail(std::size_t index, const Error& error) {
   failed.state.error = error.text();
   {
     const std::scoped_lock lock(mutex_);
-    store_status_ = record(item, std::move(failed));
-    if (!store_status_ || settings_.on_failure == RunSettings::OnFailure::stop) stop_ = true;
+    remember([&] { return record(item, std::move(failed)); });
+    if (settings_.on_failure == RunSettings::OnFailure::stop && !stop_.exchange(true)) {
+      stopped_by_failure_ = true;
+    }
   }
-  progress_.end_panorama({item.entry->name, PanoramaOutcome::failed, seconds_since(began_[index]),
-                          0, item.input_size, error.text()});
+  progress_.end_panorama({item.entry->name,
+                          PanoramaOutcome::failed,
+                          seconds_since(began_[index]),
+                          0,
+                          item.input_size,
+                          error.text(),
+                          {}});
 }
 
 void Run::finish(std::size_t index, PanoramaProjection* projection, Status status) {
@@ -189,6 +220,7 @@ void Run::report(RunSummary& summary) const {
   summary.pixel_count = pixel_count_;
   summary.byte_count = byte_count_;
   summary.map_count = map_count_;
+  summary.interrupted = stop_ && !stopped_by_failure_;
   for (std::size_t i = 0; i < items_.size(); ++i) {
     const std::string& name = items_[i]->entry->name;
     if (!notes_[i].failure.empty()) summary.failures.push_back({name, notes_[i].failure});
@@ -219,18 +251,33 @@ std::vector<GlobExpansion> expansions_of(const Manifest& manifest) {
     const bool same = last != nullptr && last->line == entry.loc.line &&
                       last->column == entry.loc.column && last->file == entry.loc.file;
     if (!same) expansions.push_back({entry.pattern, {}});
-    expansions.back().files.push_back(entry.file.string());
+    expansions.back().files.push_back(stored_path(entry));
     last = &entry.loc;
   }
   return expansions;
 }
 
-}  // namespace
+// Files that were touched, but not changed: they need not be hashed again by the next run.
+Status remember_inputs(const Plan& plan, Store& store) {
+  for (const PlannedItem& item : plan.items) {
+    if (item.work != ItemWork::none || !item.input_is_news) continue;
+    SHOAL_RETURN_IF_ERROR(store.record_input(stored_path(*item.entry), *item.input));
+  }
+  return {};
+}
 
-Result<RunSummary> run_plan(const Manifest& manifest, const Plan& plan, Store& store,
-                            const RunSettings& settings, Progress& progress,
-                            std::atomic<bool>& stop) {
+// All but the mark that a run is under way.
+std::vector<std::string> names_of(const Manifest& manifest) {
+  std::vector<std::string> names;
+  for (const PanoramaEntry& entry : manifest.entries) names.push_back(entry.name);
+  return names;
+}
+
+Result<RunSummary> run_marked(const Manifest& manifest, const Plan& plan, Store& store,
+                              const RunSettings& settings, Progress& progress,
+                              std::atomic<bool>& stop) {
   SHOAL_RETURN_IF_ERROR(store.set_globs(expansions_of(manifest)));
+  SHOAL_RETURN_IF_ERROR(remember_inputs(plan, store));
   RunSummary summary;
   summary.up_to_date_count = plan.count(ItemWork::none);
   const Clock::time_point begin = Clock::now();
@@ -241,11 +288,23 @@ Result<RunSummary> run_plan(const Manifest& manifest, const Plan& plan, Store& s
   SHOAL_RETURN_IF_ERROR(processed);
   summary.seconds = seconds_since(begin);
   run.report(summary);
-  summary.interrupted = stop && summary.failures.empty();
   if (stop) return summary;
+  if (plan.unnamed_count > 0) SHOAL_RETURN_IF_ERROR(store.forget_others(names_of(manifest)));
   SHOAL_ASSIGN_OR_RETURN(tables, write_run_tables(manifest, store));
   summary.tables = std::move(tables.paths);
   summary.missing_count = tables.missing_count;
+  return summary;
+}
+
+}  // namespace
+
+Result<RunSummary> run_plan(const Manifest& manifest, const Plan& plan, Store& store,
+                            const RunSettings& settings, Progress& progress,
+                            std::atomic<bool>& stop) {
+  SHOAL_ASSIGN_OR_RETURN(mark, RunMark::set(manifest.output, store));
+  auto summary = run_marked(manifest, plan, store, settings, progress, stop);
+  Status cleared = mark.clear(store);
+  if (summary && !cleared) return std::move(cleared).error();
   return summary;
 }
 

@@ -45,6 +45,8 @@ Result<TableContent> table_content(const Manifest& manifest, Store& store) {
     hasher.update(found->second.input_hash + found->second.parameters +
                   table_hash(manifest, entry));
   }
+  for (const TableFormat format : manifest.tables)
+    hasher.update(std::string(name_of(format)) + " ");
   hasher.update(std::to_string(kAlgorithmVersion));
   content.hash = hasher.digest();
   return content;

@@ -68,7 +68,7 @@ class Pool {
     if (index >= count_ || stop_) return false;
     auto opened = guarded([&] { return steps_.open(index); });
     if (!opened || *opened == nullptr) {
-      steps_.finish(index, nullptr, opened ? Status() : Status(std::move(opened).error()));
+      finish(index, nullptr, opened ? Status() : Status(std::move(opened).error()));
       return true;
     }
     std::unique_lock lock(mutex_);
@@ -115,8 +115,19 @@ class Pool {
     OpenJob finished = std::move(*job);
     open_.erase(job);
     lock.unlock();
-    steps_.finish(finished.index, finished.projection.get(), std::move(finished.status));
+    finish(finished.index, finished.projection.get(), std::move(finished.status));
     lock.lock();
+  }
+
+  void finish(std::size_t index, PanoramaProjection* projection, Status status) {
+    const auto tell = [&](PanoramaProjection* of, Status with) {
+      return guarded([&]() -> Status {
+        steps_.finish(index, of, std::move(with));
+        return {};
+      });
+    };
+    Status told = tell(projection, std::move(status));
+    if (!told) static_cast<void>(tell(nullptr, std::move(told)));
   }
 
   const std::size_t count_;

@@ -31,7 +31,7 @@ struct JobSteps {
 // Runs jobs 0 .. count-1, begun in this order, on `threads` workers, and returns when all have
 // finished. Once `stop` is true no further job begins, and those that are open finish with
 // ErrorCode::interrupted. `pixels_done` grows as bands are projected. An exception in a step ends
-// its job (ErrorCode::internal).
+// its job (ErrorCode::internal); where `finish` itself throws, it is called once more with that.
 void run_jobs(std::size_t count, int threads, const std::atomic<bool>& stop,
               std::atomic<std::int64_t>& pixels_done, const JobSteps& steps);
 

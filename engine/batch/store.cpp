@@ -96,6 +96,18 @@ Error not_ours(const std::filesystem::path& path) {
                "move it away, or choose another output folder"};
 }
 
+Error no_store(const std::filesystem::path& path) {
+  return Error{ErrorCode::not_found, "there is no store", path.string(),
+               "`shoal run` makes it in the manifest's output folder"};
+}
+
+// What a run leaves that is killed before its first transaction: a database without anything.
+Result<bool> is_empty(SqlDatabase& database) {
+  SHOAL_ASSIGN_OR_RETURN(id, database.integer_of("PRAGMA application_id"));
+  SHOAL_ASSIGN_OR_RETURN(tables, database.integer_of("SELECT count(*) FROM sqlite_master"));
+  return id == 0 && tables == 0;
+}
+
 Status check_version(SqlDatabase& database, const std::filesystem::path& path) {
   SHOAL_ASSIGN_OR_RETURN(id, database.integer_of("PRAGMA application_id"));
   if (id != kStoreApplicationId) return not_ours(path);
@@ -113,8 +125,8 @@ Status make_schema(SqlDatabase& database, const std::filesystem::path& path) {
   // Another process may have been here first.
   SHOAL_ASSIGN_OR_RETURN(id, database.integer_of("PRAGMA application_id"));
   if (id == kStoreApplicationId) return database.execute("COMMIT");
-  SHOAL_ASSIGN_OR_RETURN(tables, database.integer_of("SELECT count(*) FROM sqlite_master"));
-  if (id != 0 || tables != 0) return not_ours(path);
+  SHOAL_ASSIGN_OR_RETURN(empty, is_empty(database));
+  if (!empty) return not_ours(path);
   SHOAL_RETURN_IF_ERROR(database.execute(kStoreSchema));
   const std::string marks = "PRAGMA application_id = " + std::to_string(kStoreApplicationId) +
                             "; PRAGMA user_version = " + std::to_string(kStoreVersion) + "; COMMIT";
@@ -186,8 +198,8 @@ struct Store::Impl {
     std::int64_t id = 0;
     SHOAL_RETURN_IF_ERROR(query(
         kUpsertItem, [&](const SqlStatement& row) { id = row.integer(0); }, item.name,
-        name_of(state.status), state.error, state.input_path, state.input_hash,
-        state.parameters, state.output_hash, state.algorithm_version, item.engine_version,
+        name_of(state.status), state.error, state.input_path, state.input_hash, state.parameters,
+        state.output_hash, state.algorithm_version, item.engine_version,
         item.timings.decode_seconds, item.timings.project_seconds, item.timings.write_seconds));
     SHOAL_RETURN_IF_ERROR(run("DELETE FROM outputs WHERE item = ?", id));
     for (const OutputRecord& output : state.outputs) {
@@ -232,8 +244,7 @@ Result<Store> Store::open(const std::filesystem::path& path, Access access) {
   if (access == Access::write) {
     SHOAL_RETURN_IF_ERROR(prepare_folder(path));
   } else if (!std::filesystem::exists(path, ignored)) {
-    return Error{ErrorCode::not_found, "there is no store", path.string(),
-                 "`shoal run` makes it in the manifest's output folder"};
+    return no_store(path);
   }
   const auto create =
       access == Access::write ? SqlDatabase::Create::when_missing : SqlDatabase::Create::never;
@@ -244,6 +255,8 @@ Result<Store> Store::open(const std::filesystem::path& path, Access access) {
     if (id == 0) SHOAL_RETURN_IF_ERROR(make_schema(database, path));
   } else {
     SHOAL_RETURN_IF_ERROR(database.execute("PRAGMA query_only = ON"));
+    SHOAL_ASSIGN_OR_RETURN(empty, is_empty(database));
+    if (empty) return no_store(path);
   }
   SHOAL_RETURN_IF_ERROR(check_version(database, path));
   return Store(std::make_unique<Impl>(std::move(database)));
@@ -324,6 +337,18 @@ Status Store::mark_stale(std::span<const std::string> names) {
   };
   SHOAL_RETURN_IF_ERROR(impl_->write(mark));
   return flush();
+}
+
+Status Store::forget_others(std::span<const std::string> names) {
+  return impl_->write([&]() -> Status {
+    SHOAL_RETURN_IF_ERROR(
+        impl_->run("CREATE TEMP TABLE IF NOT EXISTS kept (name TEXT PRIMARY KEY) WITHOUT ROWID"));
+    SHOAL_RETURN_IF_ERROR(impl_->run("DELETE FROM kept"));
+    for (const auto& name : names) {
+      SHOAL_RETURN_IF_ERROR(impl_->run("INSERT OR IGNORE INTO kept VALUES (?)", name));
+    }
+    return impl_->run("DELETE FROM items WHERE name NOT IN (SELECT name FROM kept)");
+  });
 }
 
 Status Store::record(const ItemRecord& item) {

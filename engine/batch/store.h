@@ -62,11 +62,11 @@ enum class ItemStatus {
 // What the plan needs to know of a panorama: what its last processing was a function of.
 struct ItemState {
   ItemStatus status = ItemStatus::done;
-  std::string error;           // of a failed one
-  std::string input_path;      // empty where there is no file
-  std::string input_hash;      // of the content that was processed
-  std::string parameters;      // what the projection depends on besides, as the caller tells it
-  std::string output_hash;     // of what its own outputs depend on besides
+  std::string error;        // of a failed one
+  std::string input_path;   // empty where there is no file
+  std::string input_hash;   // of the content that was processed
+  std::string parameters;   // what the projection depends on besides, as the caller tells it
+  std::string output_hash;  // of what its own outputs depend on besides
   int algorithm_version = 0;
   std::vector<OutputRecord> outputs;
 
@@ -103,8 +103,9 @@ class Store {
     read,   // must exist; nothing is changed but for clearing up behind a killed run
   };
 
-  // Errors: not_found; malformed (damaged, or another program's); unsupported (a newer shoal's);
-  // unreadable, write_failed. All further calls: malformed, unreadable, write_failed.
+  // Errors: not_found (for reading; a database without anything counts as none); malformed
+  // (damaged, or another program's); unsupported (a newer shoal's); unreadable, write_failed. All
+  // further calls: malformed, unreadable, write_failed.
   static Result<Store> open(const std::filesystem::path& path, Access access);
 
   Store(Store&&) noexcept;
@@ -124,6 +125,9 @@ class Store {
 
   // Marks those of the panoramas that the store knows, and commits.
   Status mark_stale(std::span<const std::string> names);
+
+  // Forgets all panoramas but these. Their files stay where they are.
+  Status forget_others(std::span<const std::string> names);
 
   // Takes the place of what was known of the panorama. A failed one loses projection and outputs.
   Status record(const ItemRecord& item);

@@ -29,8 +29,13 @@ struct Fixture {
 
   void finish(const std::string& name, PanoramaOutcome outcome = PanoramaOutcome::done) {
     if (outcome != PanoramaOutcome::up_to_date) progress.pixels_done() += 2'000'000;
-    progress.end_panorama({name, outcome, 0.25, 2'000'000, 1'000'000,
-                           outcome == PanoramaOutcome::failed ? "row 3 \"ends\"" : ""});
+    progress.end_panorama({name,
+                           outcome,
+                           0.25,
+                           2'000'000,
+                           1'000'000,
+                           outcome == PanoramaOutcome::failed ? "row 3 \"ends\"" : "",
+                           {}});
   }
 
   std::chrono::nanoseconds now = 100s;
@@ -219,6 +224,16 @@ TEST(ProgressJson, ExactText) {
 )");
 }
 
+TEST(ProgressJson, TellsTheWarningsOfAPanorama) {
+  Fixture run(ProgressMode::json, Terminal());
+  run.progress.start({1, 0, 0});
+  run.take();
+  run.progress.end_panorama(
+      {"p", PanoramaOutcome::done, 0.0, 1, 1, "", {"the first", "the \"second\""}});
+  EXPECT_THAT(run.take(),
+              HasSubstr(R"("panoramas": 1, "warnings": ["the first", "the \"second\""]})"));
+}
+
 TEST(ProgressNone, ShowsMessagesOnly) {
   Fixture run(ProgressMode::none, interactive(80));
   run.progress.start({2, 0, 0});
@@ -246,7 +261,7 @@ TEST(ProgressThreads, WorkersReportAtOnce) {
         progress.begin_panorama("p");
         progress.pixels_done() += 10;
         progress.tick();
-        progress.end_panorama({"p", PanoramaOutcome::done, 0.0, 10, 1, ""});
+        progress.end_panorama({"p", PanoramaOutcome::done, 0.0, 10, 1, "", {}});
       }
     });
   }

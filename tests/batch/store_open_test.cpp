@@ -27,6 +27,17 @@ TEST(StoreOpen, ReadingNeedsAStore) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
+// A run that is killed at its very beginning leaves an empty file.
+TEST(StoreOpen, AnEmptyFileIsAStoreThatIsNotThereYet) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "s.db").close();
+  const auto missing = Store::open(folder / "s.db", Store::Access::read);
+  ASSERT_FALSE(missing.ok());
+  EXPECT_EQ(missing.error().code, ErrorCode::not_found);
+  EXPECT_TRUE(Store::open(folder / "s.db", Store::Access::write).ok());
+  EXPECT_TRUE(Store::open(folder / "s.db", Store::Access::read).ok());
+}
+
 TEST(StoreOpen, ReadingChangesNothing) {
   const TemporaryFolder folder;
   { auto store = Store::open(folder / "s.db", Store::Access::write); }
