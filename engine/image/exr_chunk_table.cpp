@@ -14,7 +14,7 @@ std::uint64_t search_chunk(const ExrContext& context, const ExrPart& part, int c
   const Status found = context.run(context.file().path(), [&] {
     return exr_read_scanline_chunk_info(context.handle(), part.index, line, &info);
   });
-  return found ? info.data_offset - ExrChunkTable::leader_size(context.is_multi_part()) : 0;
+  return found ? info.data_offset - ExrChunkTable::leader_size(context) : 0;
 }
 
 }  // namespace
@@ -26,7 +26,7 @@ Result<ExrChunkTable> ExrChunkTable::read(const ExrContext& context, const ExrPa
   SHOAL_RETURN_IF_ERROR(context.file().read_exactly(context.table(part.index).offset,
                                                     std::as_writable_bytes(std::span(offsets))));
 
-  const std::size_t leader = leader_size(context.is_multi_part());
+  const std::size_t leader = leader_size(context);
   const std::uint64_t file_end = context.file().size();
   const auto is_plausible = [&](std::uint64_t offset) {
     return offset >= context.first_chunk_offset() && offset < file_end &&

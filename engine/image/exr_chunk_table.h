@@ -29,7 +29,10 @@ class ExrChunkTable {
 
   [[nodiscard]] const Extent& operator[](int chunk) const { return extents_[chunk]; }
 
-  static constexpr std::size_t leader_size(bool multi_part) { return multi_part ? 12 : 8; }
+  // Bytes before a chunk's data: its part, where there are several, its first line, its size.
+  static std::size_t leader_size(const ExrContext& context) {
+    return context.is_multi_part() ? 12 : 8;
+  }
 
  private:
   std::vector<Extent> extents_;

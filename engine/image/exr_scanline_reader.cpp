@@ -87,7 +87,7 @@ Status ExrScanlineReader::fetch(const ExrBand& band) {
 Result<std::span<const std::byte>> ExrScanlineReader::open_chunk(
     int chunk, std::span<const std::byte> bytes) const {
   const bool multi_part = picture().context->is_multi_part();
-  const std::size_t leader = ExrChunkTable::leader_size(multi_part);
+  const std::size_t leader = ExrChunkTable::leader_size(*picture().context);
   const ExrPart& part = picture().part;
   if (bytes.size() < leader) return damaged(chunk, "are cut off");
   const std::byte* at = bytes.data();
