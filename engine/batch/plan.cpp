@@ -51,14 +51,6 @@ void find_input(const Known& known, const PlanOptions& options, InputState state
   item.input = std::move(state);
 }
 
-bool outputs_stand(const Manifest& manifest, const ItemState& state) {
-  return std::ranges::all_of(state.outputs, [&](const OutputRecord& output) {
-    struct stat info {};
-    return ::stat((manifest.output / output.path).c_str(), &info) == 0 &&
-           static_cast<std::uint64_t>(info.st_size) == output.size;
-  });
-}
-
 // Decides about one item; `item` comes with its hashes.
 void decide(const Manifest& manifest, const Known& known, const PlanOptions& options,
             PlannedItem& item) {
@@ -89,7 +81,7 @@ void decide(const Manifest& manifest, const Known& known, const PlanOptions& opt
   if (before.output_hash != item.output_hash) {
     return needs(ItemWork::outputs, "its maps are asked for differently");
   }
-  if (!outputs_stand(manifest, before)) {
+  if (!outputs_stand(manifest.output, before.outputs)) {
     return needs(ItemWork::outputs, "a file that it wrote is missing or has another size");
   }
   needs(ItemWork::none, "up to date");
@@ -117,6 +109,14 @@ std::string stored_path(const PanoramaEntry& entry) {
   std::error_code code;
   const auto path = std::filesystem::absolute(entry.file, code);
   return (code ? entry.file : path).lexically_normal().string();
+}
+
+bool outputs_stand(const std::filesystem::path& folder, std::span<const OutputRecord> outputs) {
+  return std::ranges::all_of(outputs, [&](const OutputRecord& output) {
+    struct stat info {};
+    return ::stat((folder / output.path).c_str(), &info) == 0 &&
+           static_cast<std::uint64_t>(info.st_size) == output.size;
+  });
 }
 
 Result<InputState> input_state(const std::filesystem::path& path) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -56,6 +57,10 @@ Result<Plan> make_plan(const Manifest& manifest, Store* store, const PlanOptions
 
 // The entry's file as the store knows it: absolute, so that a run from another folder finds it.
 [[nodiscard]] std::string stored_path(const PanoramaEntry& entry);
+
+// Whether all of these files are there with the sizes that they were written with.
+[[nodiscard]] bool outputs_stand(const std::filesystem::path& folder,
+                                 std::span<const OutputRecord> outputs);
 
 // Size and modification time of a file, without its hash. Error: not_found, unreadable.
 Result<InputState> input_state(const std::filesystem::path& path);

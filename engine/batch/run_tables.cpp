@@ -1,13 +1,11 @@
 #include "batch/run_tables.h"
 
-#include <sys/stat.h>
-
-#include <algorithm>
 #include <memory>
 #include <unordered_map>
 
 #include "batch/fingerprint.h"
 #include "batch/item_outputs.h"
+#include "batch/plan.h"
 #include "core/content_hash.h"
 #include "output/coefficient_table.h"
 
@@ -52,14 +50,6 @@ Result<TableContent> table_content(const Manifest& manifest, Store& store) {
   return content;
 }
 
-bool tables_stand(const Manifest& manifest, const std::vector<OutputRecord>& outputs) {
-  return !outputs.empty() && std::ranges::all_of(outputs, [&](const OutputRecord& output) {
-    struct stat info {};
-    return ::stat((manifest.output / output.path).c_str(), &info) == 0 &&
-           static_cast<std::uint64_t>(info.st_size) == output.size;
-  });
-}
-
 Status append_entry(const Manifest& manifest, const PanoramaEntry& entry, Store& store,
                     const std::vector<std::unique_ptr<TableWriter>>& writers) {
   SHOAL_ASSIGN_OR_RETURN(projection, store.find_projection(entry.name));
@@ -87,7 +77,9 @@ Result<RunTables> write_run_tables(const Manifest& manifest, Store& store) {
   }
   SHOAL_ASSIGN_OR_RETURN(before, store.property(kTablesProperty));
   SHOAL_ASSIGN_OR_RETURN(standing, store.run_outputs());
-  if (before == content.hash && tables_stand(manifest, standing)) return tables;
+  if (before == content.hash && !standing.empty() && outputs_stand(manifest.output, standing)) {
+    return tables;
+  }
 
   // A run that is killed from here on leaves no claim about the tables.
   SHOAL_RETURN_IF_ERROR(store.set_run_outputs({}));
