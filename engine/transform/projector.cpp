@@ -149,9 +149,10 @@ void PanoramaProjection::Impl::project_rows(const RowBand& band, ProjectionWorke
 void PanoramaProjection::Impl::reproject_row(const RowBand& band, int row,
                                              ProjectionWorker& worker) {
   const auto range = std::span(worker.ranges).subspan(row * band.channel_count, band.channel_count);
-  const bool huge = std::ranges::any_of(
-      range, [](const auto& r) { return r.finite() && r.magnitude_bits >= kHugeMagnitudeBits; });
-  const float scale = huge || !range[0].finite() ? kHugeScale : 1.0F;
+  // A channel that is not finite may hide huge samples among those that are.
+  const bool may_be_huge = std::ranges::any_of(
+      range, [](const auto& r) { return r.magnitude_bits >= kHugeMagnitudeBits; });
+  const float scale = may_be_huge ? kHugeScale : 1.0F;
   const PolicyRow treated = treat(band, row, worker);
   RowBand as_band{0, 1, band.width, band.channel_count, {}, {}};
   for (int c = 0; c < band.channel_count; ++c) {

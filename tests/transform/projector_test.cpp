@@ -205,7 +205,8 @@ TEST_F(Projector, GivesTheSameBitsForEveryWidth) {
   }
 }
 
-// The order of bands is the scheduler's affair: a table filled band by band in any order holds the same.
+// The order of bands is the scheduler's affair: a table filled band by band in any order holds the
+// same.
 TEST_F(Projector, DoesNotDependOnTheOrderOfBands) {
   const auto path = write(test::make_noisy_picture(100, 200, 9), MapFormat::exr_half, "order");
   const ProjectionSettings settings = settings_of(6, Quadrature::texel);
@@ -231,11 +232,11 @@ TEST_F(Projector, DoesNotDependOnTheOrderOfBands) {
       const auto band = (*reader)->read(index);
       ASSERT_TRUE(band) << band.error().text();
       std::vector<kernels::SampleRange> ranges(3 * band->row_count());
-      kernels::row_moments(grid->moments, *band, scratch,
-                           {table.column(0, 0) + band->row_begin,
-                            static_cast<std::ptrdiff_t>(table.moment_count) * table.row_count,
-                            table.row_count},
-                           ranges);
+      kernels::row_moments(
+          grid->moments, *band, scratch,
+          {table.column(0, 0) + band->row_begin,
+           static_cast<std::ptrdiff_t>(table.moment_count) * table.row_count, table.row_count},
+          ranges);
     }
     EXPECT_TRUE(contract(table, grid->weights) == expected);
   }
@@ -316,6 +317,17 @@ TEST_F(Projector, TakesTheLargestFloats) {
                           MapFormat::exr_float, "huge");
   const Projection result = project(path, settings_of(0, Quadrature::texel));
   EXPECT_NEAR(result.radiance.channels[0][0] / (std::sqrt(4.0 * kPi) * 3e38), 1.0, 1e-6);
+}
+
+// The same beside a sample that is not finite, in any channel.
+TEST_F(Projector, TakesTheLargestFloatsBesideWhatIsNotFinite) {
+  Picture picture = test::make_picture(64, 32, [](int c, int, int) { return c == 1 ? 3e38 : 1.0; });
+  picture.at(1, 7, 9) = NAN;
+  ProjectionSettings settings = settings_of(0, Quadrature::texel);
+  settings.pixels.nonfinite = PixelPolicy::NonFinite::zero;
+  const Projection result = project(write(picture, MapFormat::exr_float, "huge"), settings);
+  // One pixel of 2048 is black.
+  EXPECT_NEAR(result.radiance.channels[1][0] / (std::sqrt(4.0 * kPi) * 3e38), 1.0, 1e-3);
 }
 
 TEST_F(Projector, StopsWhenAsked) {
