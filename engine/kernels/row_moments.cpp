@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kernels/row_moments.cpp"
@@ -10,115 +9,24 @@
 #include <hwy/highway.h>
 
 #include "kernels/dispatch.h"
-#include "kernels/samples-inl.h"
-
-#ifndef SHOAL_KERNELS_ROW_MOMENTS_ONCE
-#define SHOAL_KERNELS_ROW_MOMENTS_ONCE
-namespace shoal::kernels {
-
-// A row is taken in segments whose streams, four a channel, stay in the first-level cache.
-inline constexpr std::size_t kSegment = 512;
-inline constexpr int kStreamsPerChannel = 4;
-
-// The running extremes of a row, one a virtual lane.
-struct RunningRange {
-  alignas(kAlignment) std::array<float, 16> minimum;
-  alignas(kAlignment) std::array<float, 16> maximum;
-  alignas(kAlignment) std::array<std::int32_t, 16> magnitude;
-
-  void clear() {
-    minimum.fill(std::numeric_limits<float>::infinity());
-    maximum.fill(-std::numeric_limits<float>::infinity());
-    magnitude.fill(0);
-  }
-};
-
-}  // namespace shoal::kernels
-#endif
+#include "kernels/low_degree_moments-inl.h"
+#include "kernels/moment_sums-inl.h"
+#include "kernels/row_fold-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace shoal::kernels::HWY_NAMESPACE {
 
-inline constexpr std::size_t kLanes = hn::MaxLanes(FloatTag());
-
-// Extremes in registers while a segment is gathered. Magnitudes are compared as integers, where a
-// NaN or an infinity is larger than every finite number.
-class RangeTracker {
- public:
-  explicit RangeTracker(RunningRange& range)
-      : range_(range),
-        minimum_(hn::Load(FloatTag(), range.minimum.data())),
-        maximum_(hn::Load(FloatTag(), range.maximum.data())),
-        magnitude_(hn::Load(IntTag(), range.magnitude.data())) {}
-
-  HWY_INLINE void see(FloatVec v) {
-    minimum_ = hn::Min(minimum_, v);
-    maximum_ = hn::Max(maximum_, v);
-    const auto bits = hn::And(hn::BitCast(IntTag(), v), hn::Set(IntTag(), 0x7FFFFFFF));
-    magnitude_ = hn::Max(magnitude_, bits);
-  }
-  HWY_INLINE void store() {
-    hn::Store(minimum_, FloatTag(), range_.minimum.data());
-    hn::Store(maximum_, FloatTag(), range_.maximum.data());
-    hn::Store(magnitude_, IntTag(), range_.magnitude.data());
-  }
-
- private:
-  RunningRange& range_;
-  FloatVec minimum_;
-  FloatVec maximum_;
-  hn::Vec<IntTag> magnitude_;
-};
-
-HWY_INLINE void see_one(RunningRange& range, float value) {
-  range.minimum[0] = std::min(range.minimum[0], value);
-  range.maximum[0] = std::max(range.maximum[0], value);
-  const auto bits = static_cast<std::int32_t>(std::bit_cast<std::uint32_t>(value) & 0x7FFFFFFFU);
-  range.magnitude[0] = std::max(range.magnitude[0], bits);
-}
-
-HWY_INLINE FloatVec reversed(FloatVec v) { return hn::Reverse(FloatTag(), v); }
-
-HWY_INLINE float reversed(float v) { return v; }
-
-// The four columns k, W/2-1-k, W/2+k, W-1-k lie at phi, pi - phi, pi + phi, -phi, where cos(m .)
-// and sin(m .) are the same but for signs that depend on the parity of m. Their signed sums are the
-// streams that cosines of even m, cosines of odd m, sines of even m and sines of odd m are
-// multiplied with.
-template <typename V>
-struct Fourfold {
-  V even_cosine, odd_cosine, even_sine, odd_sine;
-};
-
-template <typename V, typename AddOp, typename SubOp>
-HWY_INLINE Fourfold<V> fold(V a, V b, V c, V d, AddOp add, SubOp sub) {
-  const V near_sum = add(a, d);
-  const V far_sum = add(b, c);
-  const V near_difference = sub(a, d);
-  const V far_difference = sub(c, b);
-  return {add(near_sum, far_sum), sub(near_sum, far_sum), add(near_difference, far_difference),
-          sub(near_difference, far_difference)};
-}
+inline constexpr int kStreamsPerChannel = 4;
 
 template <typename Samples>
 void gather_fourfold(const Samples& samples, std::size_t width, std::size_t begin, std::size_t end,
                      float* const* streams, RunningRange& range) {
   const FloatTag tag;
   const std::size_t half = width / 2;
-  const auto add = [](FloatVec x, FloatVec y) { return hn::Add(x, y); };
-  const auto sub = [](FloatVec x, FloatVec y) { return hn::Sub(x, y); };
   RangeTracker tracker(range);
   std::size_t k = begin;
   for (; k + kLanes <= end; k += kLanes) {
-    const FloatVec a = samples.vector(k);
-    const FloatVec b = samples.vector(half - k - kLanes);
-    const FloatVec c = samples.vector(half + k);
-    const FloatVec d = samples.vector(width - k - kLanes);
-    tracker.see(a);
-    tracker.see(b);
-    tracker.see(c);
-    tracker.see(d);
-    const auto f = fold(a, reversed(b), c, reversed(d), add, sub);
+    const auto f = fold_columns(samples, width, k, tracker);
     hn::Store(f.even_cosine, tag, streams[0] + (k - begin));
     hn::Store(f.odd_cosine, tag, streams[1] + (k - begin));
     hn::Store(f.even_sine, tag, streams[2] + (k - begin));
@@ -130,7 +38,7 @@ void gather_fourfold(const Samples& samples, std::size_t width, std::size_t begi
     const float b = samples.one(half - 1 - k);
     const float c = samples.one(half + k);
     const float d = samples.one(width - 1 - k);
-    for (const float value : {a, b, c, d}) see_one(range, value);
+    for (const float value : {a, b, c, d}) range.see_one(value);
     const auto f = fold(a, b, c, d, std::plus<float>(), std::minus<float>());
     streams[0][k - begin] = f.even_cosine;
     streams[1][k - begin] = f.odd_cosine;
@@ -152,7 +60,7 @@ void gather_plain(const Samples& samples, std::size_t begin, std::size_t end, fl
   tracker.store();
   for (; k < end; ++k) {
     const float v = samples.one(k);
-    see_one(range, v);
+    range.see_one(v);
     stream[k - begin] = v;
   }
 }
@@ -172,14 +80,6 @@ void gather(const RowMomentPlan& plan, const RowBand& band, int row, int channel
   for (int s = 0; s < stream_count; ++s) {
     for (std::size_t k = end - begin; k % kVirtualLanes != 0; ++k) streams[s][k] = 0.0F;
   }
-}
-
-// What all channels of a row of Radiance texels share.
-void prepare_scales(const RowBand& band, int row, RowMomentScratch& scratch) {
-  if (!is_rgbe(band)) return;
-  const auto width = static_cast<std::size_t>(band.width);
-  scratch.scales.resize_uninitialised(width);
-  make_texel_scales(band.exponent.row(row), width, scratch.scales.data());
 }
 
 // sums[t][c][lane] += sum over the segment of tables[t] * streams[t][c], in double per virtual
@@ -229,9 +129,7 @@ struct SegmentSums {
       add_pair_of_runs(16, group_count, lane, high);
       for (int t = 0; t < kTables; ++t) {
         for (int c = 0; c < kChannels; ++c) {
-          alignas(kAlignment) float total[kLanes];
-          hn::Store(hn::Add(low[t][c], high[t][c]), FloatTag(), total);
-          for (std::size_t i = 0; i < kLanes; ++i) sums[t][c][lane + i] += total[i];
+          carry(hn::Add(low[t][c], high[t][c]), sums[t][c] + lane);
         }
       }
     }
@@ -271,44 +169,48 @@ void accumulate(const RowMomentPlan& plan, std::size_t begin, std::size_t end, c
   }
 }
 
-// The fixed tree over the virtual lanes.
-double reduce_lanes(double* lanes) {
-  for (std::size_t width = kVirtualLanes / 2; width > 0; width /= 2) {
-    for (std::size_t i = 0; i < width; ++i) lanes[i] += lanes[i + width];
+// One row by streams: any degree, any columns. Fills the channels' sums and ranges.
+void row_by_streams(const RowMomentPlan& plan, const RowBand& band, int row,
+                    RowMomentScratch& scratch, std::span<RunningRange> running) {
+  scratch.streams.resize_uninitialised(kMaxChannels * kStreamsPerChannel * kSegment);
+  for (std::size_t begin = 0; begin < plan.stream_length; begin += kSegment) {
+    const std::size_t end = std::min(begin + kSegment, plan.stream_length);
+    for (int c = 0; c < band.channel_count; ++c) {
+      std::array<float*, kStreamsPerChannel> streams;
+      for (int s = 0; s < kStreamsPerChannel; ++s) {
+        streams[s] = scratch.streams.data() + (c * kStreamsPerChannel + s) * kSegment;
+      }
+      gather(plan, band, row, c, scratch.scales.data(), begin, end, streams.data(), running[c]);
+    }
+    const auto all_orders = band.channel_count == 1 ? accumulate<1> : accumulate<kMaxChannels>;
+    all_orders(plan, begin, end, scratch.streams.data(), scratch.sums.data());
   }
-  return lanes[0];
 }
 
-SampleRange reduce_range(const RunningRange& range) {
-  return {std::ranges::min(range.minimum), std::ranges::max(range.maximum),
-          static_cast<std::uint32_t>(std::ranges::max(range.magnitude))};
+void row_in_registers(const RowMomentPlan& plan, const RowBand& band, int row,
+                      RowMomentScratch& scratch, std::span<RunningRange> running) {
+  for (int c = 0; c < band.channel_count; ++c) {
+    double* sums = scratch.sums.data() + c * plan.moment_count() * kVirtualLanes;
+    with_samples(band, row, c, scratch.scales.data(),
+                 [&](const auto& samples) { low_degree_moments(plan, samples, sums, running[c]); });
+  }
 }
 
 void RowMoments(const RowMomentPlan& plan, const RowBand& band, RowMomentScratch& scratch,
                 const MomentSlots& slots, std::span<SampleRange> ranges) {
   const int channels = band.channel_count;
-  const std::size_t sum_count =
-      static_cast<std::size_t>(channels) * plan.moment_count() * kVirtualLanes;
-  scratch.streams.resize_uninitialised(kMaxChannels * kStreamsPerChannel * kSegment);
-  std::array<RunningRange, kMaxChannels> running;
+  const auto fill = fits_registers(plan) ? row_in_registers : row_by_streams;
   for (int row = 0; row < band.row_count(); ++row) {
-    scratch.sums.resize_zeroed(sum_count);
-    for (auto& range : running) range.clear();
+    scratch.sums.resize_zeroed(static_cast<std::size_t>(channels) * plan.moment_count() *
+                               kVirtualLanes);
+    std::array<RunningRange, kMaxChannels> running;
     prepare_scales(band, row, scratch);
-    for (std::size_t begin = 0; begin < plan.stream_length; begin += kSegment) {
-      const std::size_t end = std::min(begin + kSegment, plan.stream_length);
-      for (int c = 0; c < channels; ++c) {
-        std::array<float*, kStreamsPerChannel> streams;
-        for (int s = 0; s < kStreamsPerChannel; ++s) {
-          streams[s] = scratch.streams.data() + (c * kStreamsPerChannel + s) * kSegment;
-        }
-        gather(plan, band, row, c, scratch.scales.data(), begin, end, streams.data(), running[c]);
-      }
-      const auto all_orders = channels == 1 ? accumulate<1> : accumulate<kMaxChannels>;
-      all_orders(plan, begin, end, scratch.streams.data(), scratch.sums.data());
-    }
+    fill(plan, band, row, scratch, running);
     for (int c = 0; c < channels; ++c) {
-      ranges[static_cast<std::size_t>(row) * channels + c] = reduce_range(running[c]);
+      with_samples(band, row, c, scratch.scales.data(), [&](const auto& samples) {
+        ranges[static_cast<std::size_t>(row) * channels + c] =
+            reduce_range(running[c], samples, static_cast<std::size_t>(plan.width));
+      });
       double* sums = scratch.sums.data() + c * plan.moment_count() * kVirtualLanes;
       double* slot = slots.first + c * slots.channel_stride + row;
       for (int k = 0; k < plan.moment_count(); ++k) {
@@ -316,16 +218,6 @@ void RowMoments(const RowMomentPlan& plan, const RowBand& band, RowMomentScratch
       }
     }
   }
-}
-
-void WidenRow(const RowBand& band, int row, int channel, RowMomentScratch& scratch, float* out) {
-  prepare_scales(band, row, scratch);
-  with_samples(band, row, channel, scratch.scales.data(), [&](const auto& samples) {
-    const auto width = static_cast<std::size_t>(band.width);
-    std::size_t k = 0;
-    for (; k + kLanes <= width; k += kLanes) hn::StoreU(samples.vector(k), FloatTag(), out + k);
-    for (; k < width; ++k) out[k] = samples.one(k);
-  });
 }
 
 }  // namespace shoal::kernels::HWY_NAMESPACE
@@ -338,7 +230,6 @@ HWY_AFTER_NAMESPACE();
 namespace shoal::kernels {
 
 SHOAL_KERNEL_TABLE(RowMoments);
-SHOAL_KERNEL_TABLE(WidenRow);
 
 namespace {
 
@@ -383,10 +274,6 @@ RowMomentPlan make_row_moment_plan(int width, int degree, const ColumnPhases& ph
 void row_moments(const RowMomentPlan& plan, const RowBand& band, RowMomentScratch& scratch,
                  const MomentSlots& slots, std::span<SampleRange> ranges) {
   SHOAL_CALL_KERNEL(RowMoments)(plan, band, scratch, slots, ranges);
-}
-
-void widen_row(const RowBand& band, int row, int channel, RowMomentScratch& scratch, float* out) {
-  SHOAL_CALL_KERNEL(WidenRow)(band, row, channel, scratch, out);
 }
 
 }  // namespace shoal::kernels

@@ -13,8 +13,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace shoal::kernels::HWY_NAMESPACE {
 
-inline constexpr std::size_t kLanes = hn::MaxLanes(FloatTag());
-
 // One vector of a synthesised row: the sum over the orders of the given parity (or all, with step
 // 1).
 HWY_INLINE void synthesise_orders(const RowMomentPlan& plan, const float* moments, int first_order,

@@ -13,6 +13,7 @@
 #include <cstring>
 
 #include "core/row_band.h"
+#include "kernels/row_moments.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace shoal::kernels::HWY_NAMESPACE {
@@ -23,6 +24,7 @@ inline constexpr std::size_t kVirtualLanes = 16;
 using FloatTag = HWY_CAPPED(float, kVirtualLanes);
 using FloatVec = hn::Vec<FloatTag>;
 using IntTag = hn::RebindToSigned<FloatTag>;
+inline constexpr std::size_t kLanes = hn::MaxLanes(FloatTag());
 
 template <typename T, typename Tag>
 HWY_INLINE hn::Vec<Tag> load_unaligned(Tag tag, const std::byte* bytes) {
@@ -106,15 +108,14 @@ struct Uint32Samples {
 
 // 2^(e-136) of a Radiance exponent, 0 for e = 0: what a mantissa m is multiplied by, exactly,
 // whatever e. 2^(e-128) has the float bits (e-1) << 23, but for e = 1, where it is the denormal
-// 2^-127.
+// 2^-127 with the bits 1 << 22. e << 22 gives that and the 0, and is nowhere else the larger one.
 HWY_INLINE FloatVec texel_scales(const std::byte* exponents) {
   const FloatTag d;
   const IntTag di;
   const hn::Rebind<std::uint8_t, FloatTag> d8;
   const auto e = hn::PromoteTo(di, load_unaligned<std::uint8_t>(d8, exponents));
-  const auto normal = hn::Max(hn::ShiftLeft<23>(hn::Sub(e, hn::Set(di, 1))), hn::Zero(di));
-  const auto is_one = hn::VecFromMask(di, hn::Eq(e, hn::Set(di, 1)));
-  const auto bits = hn::Or(normal, hn::And(is_one, hn::Set(di, 0x00400000)));
+  const auto normal = hn::Sub(hn::ShiftLeft<23>(e), hn::Set(di, 1 << 23));
+  const auto bits = hn::Max(normal, hn::ShiftLeft<22>(e));
   return hn::Mul(hn::BitCast(d, bits), hn::Set(d, 0x1p-8F));
 }
 
@@ -125,7 +126,6 @@ HWY_INLINE float texel_scale(std::uint8_t e) {
 
 // The scales of a whole row, which its three channels share.
 inline void make_texel_scales(const std::byte* exponents, std::size_t width, float* scales) {
-  constexpr std::size_t kLanes = hn::MaxLanes(FloatTag());
   std::size_t k = 0;
   for (; k + kLanes <= width; k += kLanes) {
     hn::StoreU(texel_scales(exponents + k), FloatTag(), scales + k);
@@ -157,6 +157,14 @@ struct RgbeSamples {
 inline bool is_rgbe(const RowBand& band) {
   return band.channels[0].type == SampleType::rgbe_floor ||
          band.channels[0].type == SampleType::rgbe_center;
+}
+
+// What all channels of a row of Radiance texels share.
+inline void prepare_scales(const RowBand& band, int row, RowMomentScratch& scratch) {
+  if (!is_rgbe(band)) return;
+  const auto width = static_cast<std::size_t>(band.width);
+  scratch.scales.resize_uninitialised(width);
+  make_texel_scales(band.exponent.row(row), width, scratch.scales.data());
 }
 
 // Calls `use` with the loader of one row of one channel. `scales`: of the row, for Radiance texels.
