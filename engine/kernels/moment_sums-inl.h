@@ -32,13 +32,35 @@ HWY_INLINE void carry(FloatVec segment, double* sums) {
   }
 }
 
-// The fixed tree over the virtual lanes: halves are added until one is left.
-HWY_INLINE double reduce_lanes(const double* lanes) {
-  double eight[8];
-  for (int i = 0; i < 8; ++i) eight[i] = lanes[i] + lanes[i + 8];
-  double four[4];
-  for (int i = 0; i < 4; ++i) four[i] = eight[i] + eight[i + 4];
+// The fixed tree over the virtual lanes, in double: halves are added until one is left.
+HWY_INLINE double reduce_eight(const double* eight) {
+  const HWY_CAPPED(double, 4) d;
+  alignas(kAlignment) double four[4];
+  for (std::size_t i = 0; i < 4; i += hn::Lanes(d)) {
+    hn::Store(hn::Add(hn::Load(d, eight + i), hn::Load(d, eight + 4 + i)), d, four + i);
+  }
   return (four[0] + four[2]) + (four[1] + four[3]);
+}
+
+HWY_INLINE double reduce_lanes(const double* lanes) {
+  const HWY_CAPPED(double, 8) d;
+  alignas(kAlignment) double eight[8];
+  for (std::size_t i = 0; i < 8; i += hn::Lanes(d)) {
+    hn::Store(hn::Add(hn::Load(d, lanes + i), hn::Load(d, lanes + 8 + i)), d, eight + i);
+  }
+  return reduce_eight(eight);
+}
+
+HWY_INLINE double reduce_lanes(const float* lanes) {
+  const HWY_CAPPED(double, 8) d;
+  const hn::Rebind<float, decltype(d)> narrow;
+  alignas(kAlignment) double eight[8];
+  for (std::size_t i = 0; i < 8; i += hn::Lanes(d)) {
+    const auto low = hn::PromoteTo(d, hn::Load(narrow, lanes + i));
+    const auto high = hn::PromoteTo(d, hn::Load(narrow, lanes + 8 + i));
+    hn::Store(hn::Add(low, high), d, eight + i);
+  }
+  return reduce_eight(eight);
 }
 
 }  // namespace shoal::kernels::HWY_NAMESPACE

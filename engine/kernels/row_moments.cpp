@@ -204,7 +204,7 @@ void RowMoments(const RowMomentPlan& plan, const RowBand& band, RowMomentScratch
     scratch.sums.resize_zeroed(static_cast<std::size_t>(channels) * plan.moment_count() *
                                kVirtualLanes);
     std::array<RunningRange, kMaxChannels> running;
-    prepare_scales(band, row, scratch);
+    prepare_scales(band, row, scratch.scales);
     fill(plan, band, row, scratch, running);
     for (int c = 0; c < channels; ++c) {
       with_samples(band, row, c, scratch.scales.data(), [&](const auto& samples) {

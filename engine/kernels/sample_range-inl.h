@@ -11,6 +11,7 @@
 #include <bit>
 #include <limits>
 
+#include "kernels/row_moments.h"
 #include "kernels/samples-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -12,8 +12,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "core/aligned_buffer.h"
 #include "core/row_band.h"
-#include "kernels/row_moments.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace shoal::kernels::HWY_NAMESPACE {
@@ -160,11 +160,11 @@ inline bool is_rgbe(const RowBand& band) {
 }
 
 // What all channels of a row of Radiance texels share.
-inline void prepare_scales(const RowBand& band, int row, RowMomentScratch& scratch) {
+inline void prepare_scales(const RowBand& band, int row, AlignedBuffer<float>& scales) {
   if (!is_rgbe(band)) return;
   const auto width = static_cast<std::size_t>(band.width);
-  scratch.scales.resize_uninitialised(width);
-  make_texel_scales(band.exponent.row(row), width, scratch.scales.data());
+  scales.resize_uninitialised(width);
+  make_texel_scales(band.exponent.row(row), width, scales.data());
 }
 
 // Calls `use` with the loader of one row of one channel. `scales`: of the row, for Radiance texels.

@@ -4,13 +4,14 @@
 #include <hwy/highway.h>
 
 #include "kernels/dispatch.h"
+#include "kernels/row_moments.h"
 #include "kernels/samples-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace shoal::kernels::HWY_NAMESPACE {
 
 void WidenRow(const RowBand& band, int row, int channel, RowMomentScratch& scratch, float* out) {
-  prepare_scales(band, row, scratch);
+  prepare_scales(band, row, scratch.scales);
   with_samples(band, row, channel, scratch.scales.data(), [&](const auto& samples) {
     const auto width = static_cast<std::size_t>(band.width);
     std::size_t k = 0;

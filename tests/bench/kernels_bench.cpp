@@ -9,6 +9,7 @@
 #include "bench/panorama_painter.h"
 #include "image/map_writer.h"
 #include "kernels/byte_planes.h"
+#include "kernels/direction_moments.h"
 #include "kernels/row_moments.h"
 
 namespace shoal::bench {
@@ -90,6 +91,27 @@ void row_moments_of(benchmark::State& state, SampleType type) {
   count_work(state, painted.bytes.size(), kSamples);
 }
 
+// The same rows through the kernel of layouts that do not factor; where the texels look makes no
+// difference to the time.
+void direction_moments_of(benchmark::State& state, SampleType type) {
+  const PaintedBand painted = paint_band(type);
+  const auto plan = kernels::make_direction_plan(static_cast<int>(state.range(0)));
+  kernels::DirectionScratch scratch;
+  std::vector<double> sums(std::size_t{3} * plan.coefficient_count());
+  std::vector<kernels::SampleRange> ranges(3);
+  const std::vector<float> third(kWidth, 0.57735F);
+  const kernels::TexelDirections directions = {third.data(), third.data(), third.data(),
+                                               third.data()};
+  for (auto iteration : state) {
+    for (int row = 0; row < kRows; ++row) {
+      kernels::direction_moments(plan, painted.band, row, directions, scratch, sums, ranges);
+    }
+    benchmark::DoNotOptimize(sums.data());
+    benchmark::ClobberMemory();
+  }
+  count_work(state, painted.bytes.size(), kSamples);
+}
+
 void widen_rows_of(benchmark::State& state, SampleType type) {
   const PaintedBand painted = paint_band(type);
   kernels::RowMomentScratch scratch;
@@ -155,6 +177,11 @@ BENCHMARK_CAPTURE(row_moments_of, float32, SampleType::float32)->Arg(2)->Arg(10)
 BENCHMARK_CAPTURE(row_moments_of, uint32, SampleType::uint32)->Arg(2)->Arg(10)->Arg(32);
 BENCHMARK_CAPTURE(row_moments_of, rgbe_floor, SampleType::rgbe_floor)->Arg(2)->Arg(10)->Arg(32);
 BENCHMARK_CAPTURE(row_moments_of, rgbe_center, SampleType::rgbe_center)->Arg(2)->Arg(10)->Arg(32);
+BENCHMARK_CAPTURE(direction_moments_of, half, SampleType::half)->Arg(2)->Arg(10)->Arg(32);
+BENCHMARK_CAPTURE(direction_moments_of, rgbe_floor, SampleType::rgbe_floor)
+    ->Arg(2)
+    ->Arg(10)
+    ->Arg(32);
 BENCHMARK(synthesise_row)->Arg(2)->Arg(10)->Arg(32);
 BENCHMARK(undo_predictor_and_split);
 
