@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <span>
@@ -32,6 +33,12 @@ class ContentHasher {
 };
 
 [[nodiscard]] std::string hash_text(std::string_view text);
+
+// The hash of the bytes that the file has when it is opened. Errors: InputFile's.
 Result<std::string> hash_file(const std::filesystem::path& path);
+
+// Goes on with a file whose first `offset` bytes are in `hasher` already.
+Status hash_rest_of_file(const std::filesystem::path& path, std::uint64_t offset,
+                         ContentHasher& hasher);
 
 }  // namespace shoal

@@ -4,12 +4,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 
 #include "core/result.h"
 
 namespace shoal {
+
+class ContentRecorder;
 
 class InputFile {
  public:
@@ -19,7 +22,9 @@ class InputFile {
   ~InputFile();
 
   // Errors: not_found; unreadable (permission, a directory, a device, or whatever errno says).
-  static Result<InputFile> open(const std::filesystem::path& path);
+  // `recorder`, where there is one, is handed all that is read.
+  static Result<InputFile> open(const std::filesystem::path& path,
+                                std::shared_ptr<ContentRecorder> recorder = nullptr);
 
   [[nodiscard]] std::uint64_t size() const { return size_; }
   [[nodiscard]] const std::string& path() const { return path_; }
@@ -34,6 +39,12 @@ class InputFile {
   int descriptor_ = -1;
   std::uint64_t size_ = 0;
   std::string path_;
+  std::shared_ptr<ContentRecorder> recorder_;
 };
+
+// Asks the system to read the first `limit` bytes of a file, so that they are in memory when it is
+// opened in earnest. Returns before they are. Whatever is wrong with the file, its reader will
+// tell.
+void prefetch_file(const std::filesystem::path& path, std::uint64_t limit);
 
 }  // namespace shoal

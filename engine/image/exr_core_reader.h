@@ -1,5 +1,5 @@
-// EXR scanlines and tiles in the compressions that OpenEXRCore decodes for us: PXR24, B44, B44A,
-// and with newer versions of the library the rest.
+// EXR scanlines and tiles in the compressions that OpenEXRCore decodes for us: B44, B44A, and with
+// newer versions of the library DWAA and DWAB.
 #pragma once
 
 #include <openexr.h>

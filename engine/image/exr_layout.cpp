@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "image/panorama_source.h"
+#include "image/zlib_inflater.h"
 
 namespace shoal {
 namespace {
@@ -15,6 +16,9 @@ constexpr std::uint64_t kMaxBandBytes = std::uint64_t{1} << 26;  // of several c
 // Bands of files that store every line by itself: long enough that a read and a dispatch cost
 // little beside the decoding, short enough for a second-level cache.
 constexpr int kDefaultRowsOfLineChunks = 32;
+// Bands of files of larger zlib streams: several, because they are inflated faster together, but no
+// more bytes than this, of which every thread needs about two and a half times as many.
+constexpr std::uint64_t kBytesOfZlibChunks = 8 << 20;
 
 template <typename T>
 constexpr T divide_up(T value, T by) {
@@ -141,14 +145,26 @@ void place(const ExrPart& part, ExrLayout& layout) {
   layout.visible_y_end = shared.y_end - picture.y_begin;
 }
 
+// The rows of a band unless the caller wants a number.
+int default_rows(const ExrPart& part, std::uint64_t chunk_bytes) {
+  if (part.chunk_rows == 1) return kDefaultRowsOfLineChunks;
+  const bool is_zlib =
+      part.compression == EXR_COMPRESSION_ZIP || part.compression == EXR_COMPRESSION_PXR24;
+  if (!is_zlib || part.storage != ExrStorage::scanlines) return part.chunk_rows;
+  const auto chunks =
+      std::clamp<std::uint64_t>(kBytesOfZlibChunks / chunk_bytes, 2, ZlibInflater::kLanes);
+  return part.chunk_rows * static_cast<int>(chunks);
+}
+
 void cut_into_bands(const ExrPart& part, int rows_wanted, ExrLayout& layout) {
   layout.chunk_rows = part.chunk_rows;
-  const int by_default = part.chunk_rows == 1 ? kDefaultRowsOfLineChunks : 1;
-  const std::uint64_t row_bytes =
-      part.pixel_bytes() * static_cast<std::uint64_t>(layout.data_width);
-  const auto at_most = static_cast<int>(std::clamp<std::uint64_t>(
-      kMaxBandBytes / (row_bytes * static_cast<std::uint64_t>(part.chunk_rows)), 1, kMaxSide));
-  const int rows = rows_wanted > 0 ? std::min(rows_wanted, kMaxSide) : by_default;
+  const std::uint64_t chunk_bytes = part.pixel_bytes() *
+                                    static_cast<std::uint64_t>(layout.data_width) *
+                                    static_cast<std::uint64_t>(part.chunk_rows);
+  const auto at_most =
+      static_cast<int>(std::clamp<std::uint64_t>(kMaxBandBytes / chunk_bytes, 1, kMaxSide));
+  const int rows =
+      rows_wanted > 0 ? std::min(rows_wanted, kMaxSide) : default_rows(part, chunk_bytes);
   const int chunks = divide_up(layout.data_height, part.chunk_rows);
   layout.chunks_per_band = std::min({divide_up(rows, part.chunk_rows), at_most, chunks});
 

@@ -118,6 +118,12 @@ std::uint64_t ExrPart::pixel_bytes() const {
   return bytes;
 }
 
+std::vector<SampleType> ExrPart::sample_types() const {
+  std::vector<SampleType> types;
+  for (const ExrChannel& channel : channels) types.push_back(channel.type);
+  return types;
+}
+
 Result<std::vector<ExrPart>> read_exr_parts(const ExrContext& context) {
   std::vector<ExrPart> parts;
   for (int index = 0; index < context.part_count(); ++index) {

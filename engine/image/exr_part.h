@@ -55,6 +55,7 @@ struct ExrPart {
   [[nodiscard]] bool has_subsampling() const;
   // Bytes of a pixel, all channels (as if none were subsampled).
   [[nodiscard]] std::uint64_t pixel_bytes() const;
+  [[nodiscard]] std::vector<SampleType> sample_types() const;
 };
 
 // All parts of the file, in its order. Errors: malformed.

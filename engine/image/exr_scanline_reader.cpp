@@ -27,6 +27,7 @@ bool ExrScanlineReader::can_read(const ExrPart& part, const ExrColour& colour) {
 
 ExrScanlineReader::ExrScanlineReader(std::shared_ptr<const ExrPicture> picture_in)
     : ExrBandReader(std::move(picture_in)),
+      types_(picture().part.sample_types()),
       inflater_(picture().part.compression, picture().codecs) {
   const auto width = static_cast<std::size_t>(layout().data_width);
   const std::vector<ExrChannel>& channels = picture().part.channels;
@@ -124,17 +125,19 @@ std::optional<ExrScanlineReader::Lines> ExrScanlineReader::lines_as_fetched(
 
 Result<ExrScanlineReader::Lines> ExrScanlineReader::expand(const ExrBand& band) {
   expanded_.resize_uninitialised(line_bytes_ * static_cast<std::size_t>(layout().rows_per_band()));
+  chunks_.clear();
   std::size_t filled = 0;
   for (int chunk = band.chunk_begin; chunk < band.chunk_end; ++chunk) {
-    const std::span<const std::byte> packed = packed_[chunk - band.chunk_begin];
-    const std::span<std::byte> out = expanded_.span().subspan(filled, expanded_size(chunk));
-    filled += out.size();
-    if (packed.size() == out.size()) {
-      std::memcpy(out.data(), packed.data(), out.size());  // did not become smaller by compression
-    } else if (inflater_.expand(packed, out) != Expansion::done) {
-      return damaged(
-          chunk, "do not decompress (" + exr_compression_name(picture().part.compression) + ")");
-    }
+    const ExrChunkShape shape{types_, static_cast<std::size_t>(layout().data_width),
+                              static_cast<std::size_t>(layout().rows_of_chunk(chunk))};
+    chunks_.push_back({packed_[chunk - band.chunk_begin], shape,
+                       expanded_.span().subspan(filled, expanded_size(chunk))});
+    filled += expanded_size(chunk);
+  }
+  const std::size_t broken = inflater_.expand(chunks_);
+  if (broken != chunks_.size()) {
+    return damaged(band.chunk_begin + static_cast<int>(broken),
+                   "do not decompress (" + exr_compression_name(picture().part.compression) + ")");
   }
   return Lines{expanded_.data(), static_cast<std::ptrdiff_t>(line_bytes_)};
 }

@@ -1,4 +1,4 @@
-// EXR scanline parts without compression or with RLE, ZIPS, ZIP: the hot path.
+// EXR scanline parts in the compressions that we expand ourselves: the hot path.
 //
 // A chunk of such a part is, line after line, one channel after the other: planar rows already. The
 // planes of a band point into the expanded chunks, or into the bytes as read from the file.
@@ -40,9 +40,11 @@ class ExrScanlineReader final : public ExrBandReader {
 
   std::size_t line_bytes_ = 0;                          // of all channels
   std::array<std::ptrdiff_t, kMaxChannels> in_line_{};  // where a channel begins in a line
+  std::vector<SampleType> types_;                       // of all channels
   ExrInflater inflater_;
   AlignedBuffer<std::byte> fetched_;
   std::vector<std::span<const std::byte>> packed_;  // the band's chunks in fetched_, no leaders
+  std::vector<ExrInflater::Chunk> chunks_;          // the band's, on their way to expanded_
   AlignedBuffer<std::byte> expanded_;
   std::optional<ExrPlanarRows> widened_;  // only where the data window is narrower than the picture
 };

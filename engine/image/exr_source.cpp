@@ -93,8 +93,6 @@ class ExrSource final : public PanoramaSource {
       reader = std::make_unique<ExrTileReader>(picture_);
     } else if (ExrCoreReader::can_read(picture_->part, picture_->colour)) {
       reader = std::make_unique<ExrCoreReader>(picture_);
-    } else if (picture_->colour.model == ExrColourModel::luminance_chroma) {
-      return new_exr_luminance_chroma_reader(picture_);
     } else {
       return new_exr_imf_reader(picture_);
     }

@@ -1,145 +1,101 @@
 // OpenEXR maps. Pixels are at their centres, so the envmap attribute (whose border pixels lie on
-// the poles) is not set.
-#include <Iex.h>
-#include <ImfChannelList.h>
-#include <ImfFrameBuffer.h>
-#include <ImfHeader.h>
-#include <ImfIO.h>
-#include <ImfOutputFile.h>
-#include <ImfStringAttribute.h>
-#include <half.h>
-
+// the poles) is not set. The library lives in a module that is loaded when the first map comes.
 #include <algorithm>
-#include <exception>
 #include <span>
-#include <type_traits>
 
+#include "image/exr_module_access.h"
 #include "image/map_formats.h"
 
 namespace shoal {
 namespace {
 
-constexpr const char* kChannelNames[3] = {"R", "G", "B"};
-
-// OpenEXR writes the rows behind a table of their offsets, and the table at the end. A failure is
-// kept, because OpenEXR's destructor swallows it.
-class AtomicStream final : public Imf::OStream {
- public:
-  AtomicStream(AtomicFile file, const std::string& name)
-      : Imf::OStream(name.c_str()), file_(std::move(file)) {}
-
-  void write(const char bytes[], int count) override {
-    const auto span = std::as_bytes(std::span(bytes, static_cast<std::size_t>(count)));
-    const auto within = std::min<std::uint64_t>(span.size(), size_ - position_);
-    if (status_ && within > 0) status_ = file_.write_at(position_, span.first(within));
-    if (status_ && within < span.size()) status_ = file_.write(span.subspan(within));
-    if (!status_) throw Iex::IoExc(status_.error().what);
-    position_ += span.size();
-    size_ = std::max(size_, position_);
-  }
-
-  std::uint64_t tellp() override { return position_; }
-  void seekp(std::uint64_t position) override { position_ = position; }
-
-  Status commit() { return status_ ? file_.commit() : status_; }
-  [[nodiscard]] const Status& status() const { return status_; }
-
- private:
-  AtomicFile file_;
-  std::uint64_t position_ = 0;
-  std::uint64_t size_ = 0;
-  Status status_;
+// Where the library's bytes go. A failure is kept, because the library's destructor swallows it.
+struct MapBytes {
+  AtomicFile file;
+  std::uint64_t size = 0;
+  Status status = {};
 };
 
-template <typename Sample>
-Imf::Header make_header(const MapFile& map) {
-  Imf::Header header(map.width, map.height);
-  header.compression() = Imf::ZIP_COMPRESSION;
-  const auto type = std::is_same_v<Sample, half> ? Imf::HALF : Imf::FLOAT;
-  for (const char* name : kChannelNames) header.channels().insert(name, Imf::Channel(type));
-  for (const auto& [name, text] : map.attributes) {
-    header.insert(name.c_str(), Imf::StringAttribute(text));
-  }
-  return header;
+exr::Outcome write_output(void* file, std::uint64_t offset, const char* bytes, std::size_t count,
+                          exr::Message* message) noexcept {
+  auto& out = *static_cast<MapBytes*>(file);
+  const auto span = std::as_bytes(std::span(bytes, count));
+  const auto within = std::min<std::uint64_t>(count, out.size - std::min(out.size, offset));
+  if (out.status && within > 0) out.status = out.file.write_at(offset, span.first(within));
+  if (out.status && within < count) out.status = out.file.write(span.subspan(within));
+  if (out.status) out.size = std::max(out.size, offset + count);
+  return exr_outcome(out.status, message);
 }
 
-void convert(float value, float& sample) { sample = value; }
+struct CloseMap {
+  const exr::Module* module;
+  void operator()(exr::Map* map) const { module->close_map(map); }
+};
 
-void convert(float value, half& sample) {
-  constexpr float kLargest = 65504.0f;
-  sample = half(std::clamp(value, -kLargest, kLargest));  // NaN passes std::clamp unchanged
-}
-
-// `Sample` is half or float.
-template <typename Sample>
 class ExrMapWriter final : public MapWriter {
  public:
-  ExrMapWriter(const std::filesystem::path& path, const MapFile& map, AtomicFile file)
-      : MapWriter(path, map), stream_(std::move(file), path.string()) {}
+  ExrMapWriter(const std::filesystem::path& path, const MapFile& map, AtomicFile file,
+               const exr::Module* module)
+      : MapWriter(path, map), bytes_{std::move(file)}, module_(module) {}
 
   Status open(const MapFile& map) {
-    row_.resize(static_cast<std::size_t>(width_) * 3);
-    return guarded([&] {
-      const auto header = make_header<Sample>(map);
-      Imf::FrameBuffer row;
-      for (int c = 0; c < 3; ++c) {
-        auto* samples = reinterpret_cast<char*>(row_.data() + c * width_);
-        const auto type = header.channels()[kChannelNames[c]].type;
-        row.insert(kChannelNames[c], Imf::Slice(type, samples, sizeof(Sample), 0));
-      }
-      constexpr int kNoThreads = 0;  // the callers' own workers share the cores
-      file_ = std::make_unique<Imf::OutputFile>(stream_, header, kNoThreads);
-      file_->setFrameBuffer(row);
-    });
+    std::vector<exr::Attribute> attributes;
+    for (const auto& [name, text] : map.attributes) {
+      attributes.push_back({name.c_str(), text.c_str()});
+    }
+    const exr::SampleKind kind =
+        map.format == MapFormat::exr_half ? exr::kSampleHalf : exr::kSampleFloat;
+    const exr::MapHeader header{width_, height_, kind, attributes.data(), attributes.size()};
+    const exr::Output output{&bytes_, path_.c_str(), write_output};
+    exr::Map* created = nullptr;
+    exr::Message message{};
+    const auto outcome = module_->create_map(&header, &output, &created, &message);
+    map_ = Handle(created, CloseMap{module_});
+    return told(outcome, message);
   }
 
  private:
+  using Handle = std::unique_ptr<exr::Map, CloseMap>;
+
   Status encode_rows(const std::array<const float*, 3>& planes, std::ptrdiff_t stride,
                      int row_count) override {
-    return guarded([&] {
-      for (int row = 0; row < row_count; ++row) {
-        for (int c = 0; c < 3; ++c) {
-          const float* from = planes[c] + row * stride;
-          for (int x = 0; x < width_; ++x) convert(from[x], row_[c * width_ + x]);
-        }
-        file_->writePixels(1);
-      }
-    });
+    exr::Message message{};
+    const auto outcome =
+        module_->write_rows(map_.get(), planes.data(), stride, row_count, &message);
+    return told(outcome, message);
   }
 
   Status finish() override {
-    SHOAL_RETURN_IF_ERROR(guarded([&] { file_.reset(); }));
-    return stream_.commit();
+    exr::Message message{};
+    const auto outcome = module_->finish_map(map_.get(), &message);
+    SHOAL_RETURN_IF_ERROR(told(outcome, message));
+    SHOAL_RETURN_IF_ERROR(bytes_.status);
+    return bytes_.file.commit();
   }
 
-  // Exceptions of OpenEXR end here.
-  template <typename Step>
-  Status guarded(Step step) {
-    try {
-      step();
-      return {};
-    } catch (const std::exception& exception) {
-      return stream_.status() ? Status(write_error(exception.what())) : stream_.status();
-    }
+  // What the file has against it comes before what the library says to that.
+  [[nodiscard]] Status told(exr::Outcome outcome, const exr::Message& message) const {
+    if (outcome == exr::kOutcomeOk) return {};
+    return bytes_.status ? Status(write_error(message.text)) : bytes_.status;
   }
 
-  AtomicStream stream_;
-  std::vector<Sample> row_;  // red, green, blue, one behind the other
-  std::unique_ptr<Imf::OutputFile> file_;
+  MapBytes bytes_;
+  const exr::Module* module_;
+  Handle map_{nullptr, CloseMap{nullptr}};
 };
-
-template <typename Sample>
-MapWriterResult create(const std::filesystem::path& path, const MapFile& map) {
-  SHOAL_ASSIGN_OR_RETURN(file, AtomicFile::create(path));
-  auto writer = std::make_unique<ExrMapWriter<Sample>>(path, map, std::move(file));
-  SHOAL_RETURN_IF_ERROR(writer->open(map));
-  return std::unique_ptr<MapWriter>(std::move(writer));
-}
 
 }  // namespace
 
 MapWriterResult create_exr_map(const std::filesystem::path& path, const MapFile& map) {
-  return map.format == MapFormat::exr_half ? create<half>(path, map) : create<float>(path, map);
+  auto module = exr_module();
+  if (!module) {
+    module.error().where = path.string();
+    return std::move(module).error();
+  }
+  SHOAL_ASSIGN_OR_RETURN(file, AtomicFile::create(path));
+  auto writer = std::make_unique<ExrMapWriter>(path, map, std::move(file), *module);
+  SHOAL_RETURN_IF_ERROR(writer->open(map));
+  return std::unique_ptr<MapWriter>(std::move(writer));
 }
 
 }  // namespace shoal

@@ -1,16 +1,14 @@
 #include "image/module_source.h"
 
-#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <mutex>
 #include <string_view>
 
 #include "core/aligned_buffer.h"
 #include "core/input_file.h"
 #include "image/module/oiio_module.h"
+#include "image/module_loader.h"
 
 namespace shoal {
 namespace {
@@ -19,43 +17,13 @@ constexpr std::int64_t kBandBytes = std::int64_t{1} << 20;     // all planes, if
 constexpr std::int64_t kMaxBandBytes = std::int64_t{1} << 26;  // whatever is asked, but for tiles
 constexpr std::int64_t kMaxTileRowBytes = std::int64_t{1} << 28;
 
-// dlopen's own words say what is missing when the module is there but does not load.
-Error module_error(const std::string& what) {
-  return Error{ErrorCode::unsupported, what, "",
-               "EXR and Radiance .hdr are read without it; for other formats build shoal with "
-               "OpenImageIO, or set SHOAL_MODULE_PATH to the folder of the module"};
-}
-
-Result<const oiio::Module*> load_module() {
-  std::string tried;
-  for (const auto& folder : module_search_path()) {
-    const auto file = folder / oiio::kModuleFile;
-    std::error_code code;
-    if (!std::filesystem::exists(file, code)) {
-      tried += (tried.empty() ? "" : ", ") + folder.string();
-      continue;
-    }
-    void* const handle = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (!handle) return module_error(fmt::format("the module does not load: {}", ::dlerror()));
-    const auto entry = reinterpret_cast<oiio::EntryPoint>(::dlsym(handle, oiio::kEntryPoint));
-    const oiio::Module* module = entry ? entry() : nullptr;
-    if (module && module->interface_version == oiio::kInterfaceVersion) return module;
-    return module_error(fmt::format("{} belongs to another version of shoal", file.string()));
-  }
-  return module_error(
-      fmt::format("the format needs the module {}, which is not in {}", oiio::kModuleFile, tried));
-}
-
-// Loaded once and never unloaded: OpenImageIO keeps threads of its own.
 Result<const oiio::Module*> the_module() {
-  static std::mutex mutex;
-  static const oiio::Module* module = nullptr;
-  const std::lock_guard lock(mutex);
-  if (!module) {
-    SHOAL_ASSIGN_OR_RETURN(loaded, load_module());
-    module = loaded;
-  }
-  return module;
+  static LazyModule module({oiio::kModuleFile, oiio::kEntryPoint, oiio::kInterfaceVersion,
+                            "EXR and Radiance .hdr are read without it; for other formats build "
+                            "shoal with OpenImageIO, or set SHOAL_MODULE_PATH to the folder of the "
+                            "module"});
+  SHOAL_ASSIGN_OR_RETURN(loaded, module.get());
+  return static_cast<const oiio::Module*>(loaded);
 }
 
 struct ClosePicture {
@@ -224,24 +192,6 @@ class ModuleSource final : public PanoramaSource {
 };
 
 }  // namespace
-
-std::vector<std::filesystem::path> module_search_path() {
-  std::vector<std::filesystem::path> folders;
-  if (const char* variable = std::getenv("SHOAL_MODULE_PATH")) {
-    for (std::string_view rest = variable; !rest.empty();) {
-      const auto folder = rest.substr(0, rest.find(':'));
-      if (!folder.empty()) folders.emplace_back(folder);
-      rest.remove_prefix(std::min(rest.size(), folder.size() + 1));
-    }
-  }
-  std::error_code code;
-  const auto executable = std::filesystem::read_symlink("/proc/self/exe", code);
-  if (!code) {
-    folders.push_back(executable.parent_path());
-    folders.push_back((executable.parent_path() / SHOAL_MODULE_FOLDER).lexically_normal());
-  }
-  return folders;
-}
 
 Result<std::unique_ptr<PanoramaSource>> open_with_module(const std::filesystem::path& path,
                                                          const ReadOptions& options) {

@@ -17,6 +17,8 @@
 
 namespace shoal {
 
+class ContentRecorder;
+
 // How a Radiance texel's mantissa m is read; the peers differ (README, "Conventions").
 enum class RgbeDecode {
   floor,   // m/256, as OpenImageIO, stb and cmft do
@@ -33,6 +35,7 @@ struct ReadOptions {
   Encoding encoding = Encoding::srgb;
   int rows_per_band =
       0;  // a wish, rounded up to what the file's chunks allow; 0: the reader's choice
+  std::shared_ptr<ContentRecorder> recorder;  // where given, is handed what is read of the file
 };
 
 // Which way the scanlines of a file run over the picture.

@@ -7,8 +7,6 @@
 namespace shoal {
 namespace {
 
-constexpr int kMinNewWidth = 8;
-constexpr int kMaxNewWidth = 32767;
 constexpr int kMaxRun = 127;
 constexpr int kBlock = 64;  // pixels that are looked at together for repeat marks
 
@@ -173,8 +171,7 @@ ScanlineResult take_scanline(std::span<const std::uint8_t> input, int width, Dat
                              const std::array<std::uint8_t*, 4>& planes) {
   Input in{input.data(), input.data() + input.size()};
   if (in.left() < 4) return kCutShort;
-  const bool looks_new = width >= kMinNewWidth && width <= kMaxNewWidth && in.at[0] == 2 &&
-                         in.at[1] == 2 && in.at[2] < 128;
+  const bool looks_new = allows_new_rle(width) && in.at[0] == 2 && in.at[1] == 2 && in.at[2] < 128;
   const bool is_new = looks_new && (in.at[2] << 8 | in.at[3]) == width;
   if (looks_new && !is_new && data_size != DataSize::of_flat) {
     return broken("states another width than the header");
@@ -213,7 +210,7 @@ std::uint64_t smallest_radiance_scanline(int width) {
   // One pixel, then repeats: k marks behind each other cover at most 256^k - 1 pixels.
   std::uint64_t old_rle = 4;
   for (std::int64_t left = width - 1; left > 0; left >>= 8) old_rle += 4;
-  if (width < kMinNewWidth || width > kMaxNewWidth) return old_rle;
+  if (!allows_new_rle(width)) return old_rle;
   const auto runs = static_cast<std::uint64_t>((width + kMaxRun - 1) / kMaxRun);
   return std::min<std::uint64_t>(old_rle, 4 + 4 * 2 * runs);
 }

@@ -52,6 +52,15 @@ ScanlineResult skip_radiance_scanline(std::span<const std::uint8_t> input, int w
                                       DataSize data_size,
                                       const std::array<std::uint8_t*, 4>& planes);
 
+// Whether new RLE exists for scanlines of this width.
+[[nodiscard]] constexpr bool allows_new_rle(int width) { return width >= 8 && width <= 32767; }
+
+// The bytes with which every scanline in new RLE begins.
+// Precondition: allows_new_rle(width).
+[[nodiscard]] constexpr std::array<std::uint8_t, 4> new_rle_marker(int width) {
+  return {2, 2, static_cast<std::uint8_t>(width >> 8), static_cast<std::uint8_t>(width & 255)};
+}
+
 // The fewest bytes that any encoding needs for a scanline of `width` >= 1 pixels.
 [[nodiscard]] std::uint64_t smallest_radiance_scanline(int width);
 

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cstdint>
 
+#include "core/processor.h"
 #include "kernels/dispatch.h"
 
 namespace shoal::kernels {
@@ -26,15 +27,17 @@ std::int64_t target_of(std::size_t slot) {
 bool processor_runs(std::int64_t target) {
   if (target >= HWY_STATIC_TARGET) return true;
 #if HWY_ARCH_X86
-  const bool ssse3 = __builtin_cpu_supports("ssse3");
-  const bool sse4 = ssse3 && __builtin_cpu_supports("sse4.1") && __builtin_cpu_supports("sse4.2") &&
-                    __builtin_cpu_supports("pclmul") && __builtin_cpu_supports("aes");
-  const bool avx2 = sse4 && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
-                    __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") &&
-                    __builtin_cpu_supports("lzcnt") && __builtin_cpu_supports("f16c");
-  const bool avx3 = avx2 && __builtin_cpu_supports("avx512f") &&
-                    __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&
-                    __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd");
+  const bool ssse3 = SHOAL_PROCESSOR_HAS("ssse3", SSSE3);
+  const bool sse4 = ssse3 && SHOAL_PROCESSOR_HAS("sse4.1", SSE4_1) &&
+                    SHOAL_PROCESSOR_HAS("sse4.2", SSE4_2) &&
+                    SHOAL_PROCESSOR_HAS("pclmul", PCLMULQDQ) && SHOAL_PROCESSOR_HAS("aes", AES);
+  const bool avx2 = sse4 && SHOAL_PROCESSOR_HAS("avx2", AVX2) && SHOAL_PROCESSOR_HAS("fma", FMA) &&
+                    SHOAL_PROCESSOR_HAS("bmi", BMI1) && SHOAL_PROCESSOR_HAS("bmi2", BMI2) &&
+                    SHOAL_PROCESSOR_HAS("lzcnt", LZCNT) && SHOAL_PROCESSOR_HAS("f16c", F16C);
+  const bool avx3 =
+      avx2 && SHOAL_PROCESSOR_HAS("avx512f", AVX512F) &&
+      SHOAL_PROCESSOR_HAS("avx512vl", AVX512VL) && SHOAL_PROCESSOR_HAS("avx512dq", AVX512DQ) &&
+      SHOAL_PROCESSOR_HAS("avx512bw", AVX512BW) && SHOAL_PROCESSOR_HAS("avx512cd", AVX512CD);
   switch (target) {
     case HWY_SSSE3:
       return ssse3;

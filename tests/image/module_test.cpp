@@ -6,6 +6,8 @@
 #include <fstream>
 #include <string>
 
+#include "image/map_writer.h"
+#include "image/module_loader.h"
 #include "image/module_source.h"
 #include "image/oiio_picture.h"
 #include "image/panorama_pixels.h"
@@ -246,6 +248,20 @@ TEST_F(ModuleLoading, AbsenceIsToldAndHarmsNothingElse) {
     std::exit(error.code == ErrorCode::unsupported && open_panorama(hdr_, {}, codecs) ? 0 : 1);
   };
   EXPECT_EXIT(steps(), ::testing::ExitedWithCode(0), "picture.png: .*module shoal_oiio.so.*not in");
+}
+
+// OpenEXR maps are written by a module, too.
+TEST_F(ModuleLoading, AbsenceOfTheOneForExrIsToldAndHarmsNoOtherMap) {
+  ::setenv("SHOAL_MODULE_PATH", folder_.path().c_str(), 1);
+  const auto steps = [&] {
+    const auto exr = folder_ / "map.exr", hdr = folder_ / "map.hdr";
+    const auto error = MapWriter::create(exr, {MapFormat::exr_half, 2, 1, 0.0, {}}).error();
+    std::fprintf(stderr, "%s", error.text().c_str());
+    const bool harmless = !std::filesystem::exists(exr) &&
+                          MapWriter::create(hdr, {MapFormat::hdr, 2, 1, 0.0, {}}).ok();
+    std::exit(error.code == ErrorCode::unsupported && harmless ? 0 : 1);
+  };
+  EXPECT_EXIT(steps(), ::testing::ExitedWithCode(0), "map.exr: .*module shoal_exr.so.*not in");
 }
 
 TEST_F(ModuleLoading, SomethingElseUnderItsNameIsRefused) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "support/every_target.h"
@@ -39,6 +41,44 @@ TEST(BytePlanes, AreUndoneAsByThePlainLoopForEverySizeOnEveryTarget) {
       undo_predictor_and_split(scratch.data(), size, out.data());
       EXPECT_TRUE(out == expected) << "size " << size;
     });
+  }
+}
+
+// PXR24's definition: the bit patterns of a line's samples are running sums of what the planes
+// hold.
+template <typename Sample>
+std::vector<std::byte> summed_plainly(const std::vector<std::byte>& planes, std::size_t plane_count,
+                                      std::size_t count) {
+  std::vector<std::byte> out(count * sizeof(Sample));
+  Sample sum = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    Sample difference = 0;
+    for (std::size_t byte = 0; byte < sizeof(Sample); ++byte) {
+      const unsigned value =
+          byte < plane_count ? std::to_integer<unsigned>(planes[byte * count + i]) : 0;
+      difference = static_cast<Sample>((difference << 8) | value);
+    }
+    sum = static_cast<Sample>(sum + difference);
+    std::memcpy(out.data() + i * sizeof sum, &sum, sizeof sum);
+  }
+  return out;
+}
+
+TEST(BytePlanes, AreSummedAsByThePlainLoopForEveryCountOnEveryTarget) {
+  test::RandomNumbers random(2);
+  for (const std::size_t plane_count : {2, 3, 4}) {
+    for (std::size_t count = 0; count <= 200; ++count) {
+      std::vector<std::byte> planes(plane_count * count);
+      for (std::byte& byte : planes) byte = static_cast<std::byte>(random.bits());
+      const std::vector<std::byte> expected =
+          plane_count == 2 ? summed_plainly<std::uint16_t>(planes, 2, count)
+                           : summed_plainly<std::uint32_t>(planes, plane_count, count);
+      test::for_every_target([&] {
+        std::vector<std::byte> out(expected.size());
+        sum_planes(planes.data(), plane_count, count, out.data());
+        EXPECT_TRUE(out == expected) << plane_count << " planes of " << count;
+      });
+    }
   }
 }
 
