@@ -4,7 +4,10 @@
 // parameters compute raises kAlgorithmVersion.
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <string>
+#include <utility>
 
 #include "batch/manifest.h"
 #include "core/result.h"
@@ -22,7 +25,7 @@ struct ProjectionParameters {
 
 // The same as a line of YAML with the manifest's own keys, for the store; its hash tells whether
 // two are the same. Band height, threads and SIMD target are not in it: they change no bit.
-[[nodiscard]] std::string parameter_text(const PanoramaEntry& entry);
+[[nodiscard]] std::string parameter_text(const EntrySettings& settings);
 
 // Reads it back. Error: malformed.
 Result<ProjectionParameters> parse_parameters(const std::string& text);
@@ -30,8 +33,24 @@ Result<ProjectionParameters> parse_parameters(const std::string& text);
 // Of what a panorama's own files depend on besides its projection.
 [[nodiscard]] std::string output_hash(const Manifest& manifest, const PanoramaEntry& entry);
 
-// Of what a panorama's rows in the tables depend on besides its projection: its name, all variants
-// and quantities.
-[[nodiscard]] std::string table_hash(const Manifest& manifest, const PanoramaEntry& entry);
+// Of what a panorama's rows in the tables depend on besides its name and its projection: all
+// variants and quantities.
+[[nodiscard]] std::string table_hash(const Manifest& manifest, const EntrySettings& settings);
+
+// One of the above for one entry after the other. It is made anew only where the settings are
+// others than those of the entry before, which in a library of 100,000 files is hardly ever.
+class SettingsText {
+ public:
+  using Make = std::function<std::string(const EntrySettings&)>;
+  explicit SettingsText(Make make) : make_(std::move(make)) {}
+
+  // Lives until the next call.
+  [[nodiscard]] const std::string& of(const PanoramaEntry& entry);
+
+ private:
+  Make make_;
+  std::shared_ptr<const EntrySettings> settings_;
+  std::string text_;
+};
 
 }  // namespace shoal

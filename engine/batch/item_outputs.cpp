@@ -70,7 +70,7 @@ Result<OutputRecord> output_record(const Manifest& manifest, const std::string& 
 
 Result<Coefficients> variant_radiance(const Projection& projection, const PanoramaEntry& entry,
                                       const Variant& variant) {
-  SHOAL_ASSIGN_OR_RETURN(matrix, combined_matrix(colour_of(entry, variant)));
+  SHOAL_ASSIGN_OR_RETURN(matrix, combined_matrix(colour_of(*entry.settings, variant)));
   return apply_matrix(projection.radiance, matrix);
 }
 
@@ -82,9 +82,9 @@ Result<std::vector<OutputRecord>> write_item_maps(const Manifest& manifest,
   if (manifest.maps.empty()) return records;
   for (const Variant& variant : manifest.variants) {
     SHOAL_ASSIGN_OR_RETURN(radiance, variant_radiance(projection, entry, variant));
-    const Frame frame = frame_of(entry, variant);
+    const Frame frame = frame_of(*entry.settings, variant);
     for (const MapRequest& map : manifest.maps) {
-      if (stop) return Error{ErrorCode::interrupted, "interrupted", entry.file.string(), ""};
+      if (stop) return Error{ErrorCode::interrupted, "interrupted", entry.file, ""};
       const std::vector<std::string> names = map_files(manifest, entry, variant, map);
       SHOAL_RETURN_IF_ERROR(write_map_files(manifest, map,
                                             map_file(entry, variant, map, projection, frame),
@@ -103,7 +103,7 @@ Status make_item_records(const Manifest& manifest, const PanoramaEntry& entry,
                          const std::function<Status(const CoefficientRecord&)>& take) {
   for (const Variant& variant : manifest.variants) {
     SHOAL_ASSIGN_OR_RETURN(radiance, variant_radiance(projection, entry, variant));
-    const Frame frame = frame_of(entry, variant);
+    const Frame frame = frame_of(*entry.settings, variant);
     const Coefficients in_frame = to_frame(radiance, frame);
     for (const Quantity quantity : manifest.quantities) {
       SHOAL_RETURN_IF_ERROR(

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -30,15 +31,28 @@ struct LinearKeys {
   std::optional<Frame> frame;
 };
 
-struct PanoramaEntry {
-  std::string name;            // unique, safe as a path below the output folder
-  std::filesystem::path file;  // absolute, or relative to the working directory
-  std::vector<std::string> tags;
+// Keys of an entry that defaults: may hold, too.
+struct EntrySettings {
   ReadOptions read;
   ProjectionSettings projection;
+  std::vector<std::string> tags;
   LinearKeys linear;
+};
+
+// Where a manifest names a panorama.
+struct EntryOrigin {
   std::string pattern;  // that found the file, with its variables replaced; empty for `file:`
   SourceLoc loc;        // of the entry, or of the pattern
+};
+
+// One file. A pattern may find a hundred thousand: what is the same for all of them is shared, and
+// never null.
+struct PanoramaEntry {
+  std::string name;  // unique, safe as a path below the output folder
+  std::string file;  // a path, absolute or relative to the working directory; as text, since a
+                     // std::filesystem::path takes five times the memory
+  std::shared_ptr<const EntrySettings> settings = std::make_shared<EntrySettings>();
+  std::shared_ptr<const EntryOrigin> origin = std::make_shared<EntryOrigin>();
 };
 
 struct Variant {
@@ -48,8 +62,8 @@ struct Variant {
 };
 
 // What a panorama's colours go through in a variant, and the frame it is told in.
-[[nodiscard]] ColourOperations colour_of(const PanoramaEntry& entry, const Variant& variant);
-[[nodiscard]] Frame frame_of(const PanoramaEntry& entry, const Variant& variant);
+[[nodiscard]] ColourOperations colour_of(const EntrySettings& settings, const Variant& variant);
+[[nodiscard]] Frame frame_of(const EntrySettings& settings, const Variant& variant);
 
 enum class MapLayout { equirect, cube };
 enum class MapFileType { exr, hdr, png };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <system_error>
 #include <unordered_set>
@@ -17,17 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kMapFolders[] = {"maps", "exports"};
-
-PanoramaEntry make_panorama(const EntryText& entry, fs::path file, SourceLoc loc) {
-  PanoramaEntry panorama;
-  panorama.file = std::move(file);
-  panorama.tags = entry.settings.tags;
-  panorama.read = entry.settings.read;
-  panorama.projection = entry.settings.projection;
-  panorama.linear = entry.settings.linear;
-  panorama.loc = std::move(loc);
-  return panorama;
-}
 
 // A name of the file's folder that is near to the file's, in quotes as a question, or "".
 std::string nearby_file(const fs::path& file) {
@@ -69,7 +59,8 @@ void find_file(const EntryText& entry, PanoramaNames& names, std::vector<Panoram
   } else {
     names.add_path(file.filename().string());
   }
-  found.push_back(make_panorama(entry, file, entry.loc));
+  found.push_back({"", file.string(), std::make_shared<EntrySettings>(entry.settings),
+                   std::make_shared<EntryOrigin>(EntryOrigin{"", entry.loc})});
 }
 
 // An exclude: pattern with whether it has excluded anything.
@@ -135,38 +126,51 @@ std::string why_nothing(const LocatedText& pattern, const EntryText& entry, cons
 struct Search {
   const EntryText& entry;
   const fs::path& output;
+  std::shared_ptr<const EntrySettings> settings;
   std::vector<Exclude> excludes;
-  std::unordered_set<std::string> taken;  // patterns of one entry may overlap
+  std::unordered_set<std::string> taken;  // where there are several patterns: they may overlap
 };
+
+// How many matches of a pattern are no maps of shoal's own, and how many of these are excluded.
+struct MatchCounts {
+  std::size_t eligible = 0;
+  std::size_t excluded = 0;
+};
+
+MatchCounts take_matches(const LocatedText& pattern, const Glob& glob, const GlobMatches& matches,
+                         Search& search, PanoramaNames& names, std::vector<PanoramaEntry>& found) {
+  const std::vector<std::string> skipped = output_prefixes(matches.root, search.output);
+  const std::string root = (matches.root / "").string();
+  const auto origin = std::make_shared<EntryOrigin>(EntryOrigin{pattern.text, pattern.loc});
+  MatchCounts counts;
+  for (const std::string& path : matches.paths) {
+    const auto is_below = [&path](const std::string& prefix) { return path.starts_with(prefix); };
+    if (std::any_of(skipped.begin(), skipped.end(), is_below)) continue;
+    ++counts.eligible;
+    if (is_excluded(search.excludes, path, glob.fixed_part())) {
+      ++counts.excluded;
+      continue;
+    }
+    std::string file = root + path;
+    if (search.entry.files.size() > 1 && !search.taken.insert(file).second) continue;
+    names.add_path(path);
+    found.push_back({"", std::move(file), search.settings, origin});
+  }
+  return counts;
+}
 
 void find_pattern(const LocatedText& pattern, Search& search, PanoramaNames& names,
                   std::vector<PanoramaEntry>& found, ManifestLog& log) {
   const Result<Glob> glob = Glob::parse(pattern.text);
   if (!glob) return log.error(pattern.loc, glob.error().what, glob.error().hint);
   const GlobMatches matches = glob->expand(search.entry.folder);
-  const std::vector<std::string> skipped = output_prefixes(matches.root, search.output);
-  std::size_t eligible = 0;
-  std::size_t excluded = 0;
-  for (const std::string& path : matches.paths) {
-    const auto is_below = [&path](const std::string& prefix) { return path.starts_with(prefix); };
-    if (std::any_of(skipped.begin(), skipped.end(), is_below)) continue;
-    ++eligible;
-    if (is_excluded(search.excludes, path, glob->fixed_part())) {
-      ++excluded;
-      continue;
-    }
-    fs::path file = matches.root / path;
-    if (!search.taken.insert(file.string()).second) continue;
-    names.add_path(path);
-    found.push_back(make_panorama(search.entry, std::move(file), pattern.loc));
-    found.back().pattern = pattern.text;
-  }
-  if (eligible == 0) {
+  const MatchCounts counts = take_matches(pattern, *glob, matches, search, names, found);
+  if (counts.eligible == 0) {
     log.error(pattern.loc, fmt::format("no file matches {}", in_quotes(pattern.text)),
               why_nothing(pattern, search.entry, *glob, matches));
     return;
   }
-  if (excluded == eligible) {
+  if (counts.excluded == counts.eligible) {
     log.error(pattern.loc, "every file that matches is excluded");
   }
   for (const UnreadableFolder& folder : matches.unreadable) {
@@ -177,7 +181,11 @@ void find_pattern(const LocatedText& pattern, Search& search, PanoramaNames& nam
 
 void find_files(const EntryText& entry, const fs::path& output, PanoramaNames& names,
                 std::vector<PanoramaEntry>& found, ManifestLog& log) {
-  Search search{entry, output, parse_excludes(entry, log), {}};
+  Search search{entry,
+                output,
+                std::make_shared<EntrySettings>(entry.settings),
+                parse_excludes(entry, log),
+                {}};
   const std::size_t before = found.size();
   for (const LocatedText& pattern : entry.files) find_pattern(pattern, search, names, found, log);
   if (found.size() == before) return;

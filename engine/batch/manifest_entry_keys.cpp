@@ -15,13 +15,6 @@ constexpr std::string_view kMatrixForm = "three lists of three numbers, the matr
 
 constexpr Choice<Quadrature> kQuadratures[] = {
     {"texel", Quadrature::texel}, {"midpoint", Quadrature::midpoint}, {"fejer", Quadrature::fejer}};
-constexpr Choice<PixelPolicy::NonFinite> kNonFinites[] = {{"error", PixelPolicy::NonFinite::error},
-                                                          {"zero", PixelPolicy::NonFinite::zero}};
-constexpr Choice<PixelPolicy::Negative> kNegatives[] = {{"keep", PixelPolicy::Negative::keep},
-                                                        {"zero", PixelPolicy::Negative::zero}};
-constexpr Choice<RgbeDecode> kRgbeDecodes[] = {{"floor", RgbeDecode::floor},
-                                               {"center", RgbeDecode::center}};
-constexpr Choice<Encoding> kEncodings[] = {{"srgb", Encoding::srgb}, {"linear", Encoding::linear}};
 
 template <typename T, typename U>
 void assign(std::optional<T> value, U& target) {
@@ -116,30 +109,30 @@ const ManifestKeyRule<EntrySettings> kSettingRules[] = {
      choice_names<kQuadratures>},
     {"nonfinite",
      [](const ManifestReader& reader, const Field& field, EntrySettings& settings) {
-       assign(reader.choice<PixelPolicy::NonFinite>(field, kNonFinites),
+       assign(reader.choice<PixelPolicy::NonFinite>(field, kNonFiniteChoices),
               settings.projection.pixels.nonfinite);
      },
-     choice_names<kNonFinites>},
+     choice_names<kNonFiniteChoices>},
     {"negative",
      [](const ManifestReader& reader, const Field& field, EntrySettings& settings) {
-       assign(reader.choice<PixelPolicy::Negative>(field, kNegatives),
+       assign(reader.choice<PixelPolicy::Negative>(field, kNegativeChoices),
               settings.projection.pixels.negative);
      },
-     choice_names<kNegatives>},
+     choice_names<kNegativeChoices>},
     {"clamp",
      [](const ManifestReader& reader, const Field& field, EntrySettings& settings) {
        assign(reader.number(field, kNotNegative), settings.projection.pixels.clamp);
      }},
     {"rgbe_decode",
      [](const ManifestReader& reader, const Field& field, EntrySettings& settings) {
-       assign(reader.choice<RgbeDecode>(field, kRgbeDecodes), settings.read.rgbe_decode);
+       assign(reader.choice<RgbeDecode>(field, kRgbeDecodeChoices), settings.read.rgbe_decode);
      },
-     choice_names<kRgbeDecodes>},
+     choice_names<kRgbeDecodeChoices>},
     {"encoding",
      [](const ManifestReader& reader, const Field& field, EntrySettings& settings) {
-       assign(reader.choice<Encoding>(field, kEncodings), settings.read.encoding);
+       assign(reader.choice<Encoding>(field, kEncodingChoices), settings.read.encoding);
      },
-     choice_names<kEncodings>},
+     choice_names<kEncodingChoices>},
     {"layer", [](const ManifestReader& reader, const Field& field,
                  EntrySettings& settings) { assign(reader.text(field), settings.read.layer); }},
     {"part", [](const ManifestReader& reader, const Field& field,

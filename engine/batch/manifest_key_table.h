@@ -89,6 +89,17 @@ inline constexpr Choice<Quantity> kQuantityChoices[] = {
     {"irradiance", Quantity::irradiance},
     {"irradiance_over_pi", Quantity::irradiance_over_pi}};
 
+// The words for what a projection depends on besides its file: in entries, and in the line of YAML
+// that the store keeps of them.
+inline constexpr Choice<PixelPolicy::NonFinite> kNonFiniteChoices[] = {
+    {"error", PixelPolicy::NonFinite::error}, {"zero", PixelPolicy::NonFinite::zero}};
+inline constexpr Choice<PixelPolicy::Negative> kNegativeChoices[] = {
+    {"keep", PixelPolicy::Negative::keep}, {"zero", PixelPolicy::Negative::zero}};
+inline constexpr Choice<RgbeDecode> kRgbeDecodeChoices[] = {{"floor", RgbeDecode::floor},
+                                                            {"center", RgbeDecode::center}};
+inline constexpr Choice<Encoding> kEncodingChoices[] = {{"srgb", Encoding::srgb},
+                                                        {"linear", Encoding::linear}};
+
 // The kinds of mapping with the keys that later versions bring.
 extern const MappingKind kManifestMapping;
 extern const MappingKind kDefaultsMapping;

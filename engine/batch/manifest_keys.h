@@ -14,14 +14,6 @@
 
 namespace shoal {
 
-// Keys of an entry that defaults: may hold, too.
-struct EntrySettings {
-  ReadOptions read;
-  ProjectionSettings projection;
-  std::vector<std::string> tags;
-  LinearKeys linear;
-};
-
 // An entry of panoramas: before its files are looked for.
 struct EntryText {
   EntrySettings settings;

@@ -35,12 +35,13 @@ void tell_clash(const Clash& clash, const std::vector<PanoramaEntry>& panoramas,
   const PanoramaEntry& second = panoramas[clash.second];
   std::string message =
       first.file == second.file
-          ? fmt::format("{} is taken twice", in_quotes(second.file.string()))
+          ? fmt::format("{} is taken twice", in_quotes(second.file))
           : fmt::format("two panoramas are named {}: {} and {}", in_quotes(second.name),
-                        in_quotes(first.file.string()), in_quotes(second.file.string()));
+                        in_quotes(first.file), in_quotes(second.file));
   if (clash.count > 1) message += fmt::format(", and {} more like it", clash.count - 1);
-  log.error(loc, std::move(message),
-            fmt::format("the first is of {}; exclude one, or give it a name", place(first.loc)));
+  log.error(
+      loc, std::move(message),
+      fmt::format("the first is of {}; exclude one, or give it a name", place(first.origin->loc)));
 }
 
 }  // namespace
@@ -78,20 +79,20 @@ void PanoramaNames::assign(std::vector<PanoramaEntry>& panoramas, ManifestLog& l
     const bool stays = !name.is_given() && short_counts[shorter] > 1;
     const std::string_view chosen = stays ? std::string_view(name.text) : shorter;
     panoramas[i].name = chosen;
-    const SourceLoc& loc = name.is_given() ? name.given_at : panoramas[i].loc;
+    const SourceLoc& loc = name.is_given() ? name.given_at : panoramas[i].origin->loc;
     if (const std::string fault = name_fault(chosen); !name.is_given() && !fault.empty()) {
       log.error(loc, fmt::format("the name {} {}", in_quotes(chosen), fault),
                 "exclude the file, or take it alone with file: and name:");
     }
     const auto [owner, is_new] = owners.try_emplace(chosen, i);
     if (is_new) continue;
-    const SourceLoc& other = panoramas[owner->second].loc;
+    const SourceLoc& other = panoramas[owner->second].origin->loc;
     Clash& clash = clashes[{other.file, other.line, other.column, loc.file, loc.line, loc.column}];
     if (clash.count++ == 0) clash = {owner->second, i, 1};
   }
   for (const auto& [key, clash] : clashes) {
     const Name& name = names_[clash.second];
-    const SourceLoc& loc = name.is_given() ? name.given_at : panoramas[clash.second].loc;
+    const SourceLoc& loc = name.is_given() ? name.given_at : panoramas[clash.second].origin->loc;
     tell_clash(clash, panoramas, loc, log);
   }
 }

@@ -78,7 +78,7 @@ void check_panoramas(const Manifest& manifest, ManifestLog& log) {
       const std::string file =
           common_file(all_map_files(manifest, *shorter->second), all_map_files(manifest, entry));
       if (file.empty()) continue;
-      log.error(entry.loc,
+      log.error(entry.origin->loc,
                 fmt::format("maps of the panoramas {} and {} would both be written to {}",
                             in_quotes(shorter->first), in_quotes(name), in_quotes(file)),
                 "give one of the panoramas another name");
@@ -91,25 +91,30 @@ void check_tables(const Manifest& manifest, const SourceLoc& loc, ManifestLog& l
   if (std::find(tables.begin(), tables.end(), TableFormat::npy) == tables.end()) return;
   const auto& entries = manifest.entries;
   const auto differs = std::find_if(entries.begin(), entries.end(), [&](const auto& entry) {
-    return entry.projection.degree != entries.front().projection.degree;
+    return entry.settings->projection.degree != entries.front().settings->projection.degree;
   });
   if (differs == entries.end()) return;
-  log.error(loc,
-            fmt::format("an npy table has one degree, but {} has {} and {} has {}",
-                        in_quotes(entries.front().name), entries.front().projection.degree,
-                        in_quotes(differs->name), differs->projection.degree),
-            "leave npy out, or use one degree");
+  log.error(
+      loc,
+      fmt::format("an npy table has one degree, but {} has {} and {} has {}",
+                  in_quotes(entries.front().name), entries.front().settings->projection.degree,
+                  in_quotes(differs->name), differs->settings->projection.degree),
+      "leave npy out, or use one degree");
 }
 
 void check_colours(const Manifest& manifest, ManifestLog& log) {
+  const EntrySettings* checked = nullptr;
   const SourceLoc* told = nullptr;
   for (const PanoramaEntry& entry : manifest.entries) {
+    if (entry.settings.get() == checked) continue;
+    checked = entry.settings.get();
+    const SourceLoc& loc = entry.origin->loc;
     for (const Variant& variant : manifest.variants) {
-      const auto matrix = combined_matrix(colour_of(entry, variant));
-      const bool is_told = told && told->file == entry.loc.file && told->line == entry.loc.line;
+      const auto matrix = combined_matrix(colour_of(*entry.settings, variant));
+      const bool is_told = told && told->file == loc.file && told->line == loc.line;
       if (matrix || is_told) continue;
-      log.error(entry.loc, matrix.error().what, matrix.error().hint);
-      told = &entry.loc;
+      log.error(loc, matrix.error().what, matrix.error().hint);
+      told = &loc;
     }
   }
 }
@@ -123,8 +128,8 @@ void check_outputs(const Manifest& manifest, const SourceLoc& tables_loc, Manife
   check_colours(manifest, log);
 }
 
-ColourOperations colour_of(const PanoramaEntry& entry, const Variant& variant) {
-  const LinearKeys& base = entry.linear;
+ColourOperations colour_of(const EntrySettings& settings, const Variant& variant) {
+  const LinearKeys& base = settings.linear;
   const LinearKeys& over = variant.linear;
   ColourOperations colour;
   colour.exposure_stops = over.exposure_stops.value_or(base.exposure_stops.value_or(0.0));
@@ -134,8 +139,8 @@ ColourOperations colour_of(const PanoramaEntry& entry, const Variant& variant) {
   return colour;
 }
 
-Frame frame_of(const PanoramaEntry& entry, const Variant& variant) {
-  return variant.linear.frame.value_or(entry.linear.frame.value_or(Frame{}));
+Frame frame_of(const EntrySettings& settings, const Variant& variant) {
+  return variant.linear.frame.value_or(settings.linear.frame.value_or(Frame{}));
 }
 
 std::vector<std::string> map_files(const Manifest& manifest, const PanoramaEntry& entry,

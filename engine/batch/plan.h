@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "batch/manifest.h"
@@ -24,12 +25,10 @@ enum class ItemWork {
 struct PlannedItem {
   const PanoramaEntry* entry = nullptr;
   ItemWork work = ItemWork::all;
-  std::string reason;               // for people: "new", "its file's content changed", "up to date"
+  std::string_view reason;          // for people: "new", "its file's content changed", "up to date"
   std::uint64_t input_size = 0;     // bytes; 0 where the file cannot be asked
   std::optional<InputState> input;  // of the file as it is now, where its content's hash is known
   bool input_is_news = false;       // the store does not know `input` yet
-  std::string parameters;           // as of parameter_text()
-  std::string output_hash;
 };
 
 struct PlanOptions {
@@ -54,6 +53,10 @@ struct Plan {
 // `store`: of an earlier run, or null. Errors: usage (a bad `only`, or one that selects nothing);
 // malformed, unreadable (the store).
 Result<Plan> make_plan(const Manifest& manifest, Store* store, const PlanOptions& options);
+
+// Where the entry of a name is among the manifest's. Lives no longer than the manifest.
+using EntryIndex = std::unordered_map<std::string_view, std::size_t>;
+[[nodiscard]] EntryIndex index_entries(const Manifest& manifest);
 
 // The entry's file as the store knows it: absolute, so that a run from another folder finds it.
 [[nodiscard]] std::string stored_path(const PanoramaEntry& entry);

@@ -11,7 +11,8 @@
 #include "batch/leftovers.h"
 #include "batch/run_tables.h"
 #include "batch/scheduler.h"
-#include "core/content_hash.h"
+#include "core/content_recorder.h"
+#include "core/input_file.h"
 #include "core/version.h"
 
 namespace shoal {
@@ -21,6 +22,15 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+bool same_time(const InputState& a, const InputState& b) {
+  return a.size == b.size && a.mtime_ns == b.mtime_ns;
+}
+
+// Whether the plan has the hash of the file as it is when it is opened.
+bool knows_hash(const PlannedItem& item, const InputState& opened) {
+  return item.input && same_time(*item.input, opened);
 }
 
 // The state of one run that its workers share.
@@ -33,7 +43,7 @@ class Run {
       if (item.work != ItemWork::none) items_.push_back(&item);
     }
     began_.resize(items_.size());
-    states_.resize(items_.size());
+    opened_.resize(items_.size());
     notes_.resize(items_.size());
   }
 
@@ -41,6 +51,13 @@ class Run {
   void report(RunSummary& summary) const;
 
  private:
+  // An item's file when it was opened, and the hash of what was read of it where the plan does not
+  // know that already.
+  struct Opened {
+    InputState state;
+    std::shared_ptr<ContentRecorder> recorder;
+  };
+
   // What is said of an item at the end.
   struct Notes {
     std::string failure;
@@ -48,11 +65,12 @@ class Run {
   };
 
   Result<std::unique_ptr<PanoramaProjection>> open(std::size_t index);
+  void prefetch(std::size_t index, std::uint64_t limit);
   void finish(std::size_t index, PanoramaProjection* projection, Status status);
   Status complete(std::size_t index, PanoramaProjection* projection);
   Result<Projection> projection_of(const PlannedItem& item, PanoramaProjection* projection);
   void fail(std::size_t index, const Error& error);
-  Status record(const PlannedItem& item, ItemRecord record);
+  [[nodiscard]] ItemRecord record_of(const PlannedItem& item, ItemStatus status) const;
   Result<InputState> input_of(std::size_t index);
   void remember(const std::function<Status()>& write);
 
@@ -63,7 +81,7 @@ class Run {
   std::atomic<bool>& stop_;
   std::vector<const PlannedItem*> items_;  // those that have something to do
   std::vector<Clock::time_point> began_;   // one an item; written and read by its workers in turn
-  std::vector<InputState> states_;         // likewise: the files when they were opened
+  std::vector<Opened> opened_;             // likewise
   std::vector<Notes> notes_;
   ProjectionTables tables_;
 
@@ -81,9 +99,20 @@ Result<std::unique_ptr<PanoramaProjection>> Run::open(std::size_t index) {
   began_[index] = Clock::now();
   progress_.begin_panorama(item.entry->name);
   if (item.work == ItemWork::outputs) return std::unique_ptr<PanoramaProjection>();
-  if (auto state = input_state(item.entry->file)) states_[index] = *state;
-  return PanoramaProjection::open(item.entry->file, item.entry->read, item.entry->projection,
+  Opened& opened = opened_[index];
+  if (auto state = input_state(item.entry->file)) opened.state = *state;
+  ReadOptions read = item.entry->settings->read;
+  if (!knows_hash(item, opened.state)) {
+    opened.recorder = read.recorder = std::make_shared<ContentRecorder>();
+  }
+  return PanoramaProjection::open(item.entry->file, read, item.entry->settings->projection,
                                   tables_);
+}
+
+// Asks for what open() will read soon.
+void Run::prefetch(std::size_t index, std::uint64_t limit) {
+  const PlannedItem& item = *items_[index];
+  if (item.work == ItemWork::all) prefetch_file(item.entry->file, limit);
 }
 
 Result<Projection> Run::projection_of(const PlannedItem& item, PanoramaProjection* projection) {
@@ -91,29 +120,26 @@ Result<Projection> Run::projection_of(const PlannedItem& item, PanoramaProjectio
   const std::scoped_lock lock(mutex_);
   SHOAL_ASSIGN_OR_RETURN(stored, store_.find_projection(item.entry->name));
   if (stored) return std::move(*stored);
-  return Error{ErrorCode::malformed, "its projection is missing from the store",
-               item.entry->file.string(), "run with --force"};
+  return Error{ErrorCode::malformed, "its projection is missing from the store", item.entry->file,
+               "run with --force"};
 }
 
-// The file's state with its hash: known from the plan, or taken now. The coefficients of one
-// content must not be remembered as those of another, so the file must still be what was opened.
+// The file's state with its hash: known from the plan, or taken as the file was read. The
+// coefficients of one content must not be remembered as those of another, so the file must still be
+// what was opened.
 Result<InputState> Run::input_of(std::size_t index) {
   const PlannedItem& item = *items_[index];
   if (item.work == ItemWork::outputs) return *item.input;
-  InputState opened = states_[index];
-  const auto same_time = [&](const InputState& other) {
-    return other.size == opened.size && other.mtime_ns == opened.mtime_ns;
-  };
-  if (item.input && same_time(*item.input)) {
-    opened.content_hash = item.input->content_hash;
+  auto [state, recorder] = std::move(opened_[index]);
+  if (recorder) {
+    SHOAL_ASSIGN_OR_RETURN(hash, recorder->digest(item.entry->file));
+    state.content_hash = std::move(hash);
   } else {
-    SHOAL_ASSIGN_OR_RETURN(hash, hash_file(item.entry->file));
-    opened.content_hash = std::move(hash);
+    state.content_hash = item.input->content_hash;
   }
   SHOAL_ASSIGN_OR_RETURN(now, input_state(item.entry->file));
-  if (same_time(now)) return opened;
-  return Error{ErrorCode::unreadable, "changed while it was read", item.entry->file.string(),
-               "run again"};
+  if (same_time(now, state)) return std::move(state);
+  return Error{ErrorCode::unreadable, "changed while it was read", item.entry->file, "run again"};
 }
 
 // The first error of the store ends the run. Called with mutex_ held.
@@ -123,14 +149,17 @@ void Run::remember(const std::function<Status()>& write) {
   if (!store_status_) stop_ = true;
 }
 
-Status Run::record(const PlannedItem& item, ItemRecord record) {
+// What the store is told of an item, whatever became of it.
+ItemRecord Run::record_of(const PlannedItem& item, ItemStatus status) const {
+  ItemRecord record;
   record.name = item.entry->name;
   record.engine_version = kVersion;
+  record.state.status = status;
   record.state.input_path = stored_path(*item.entry);
-  record.state.parameters = item.parameters;
-  record.state.output_hash = item.output_hash;
+  record.state.parameters = parameter_text(*item.entry->settings);
+  record.state.output_hash = output_hash(manifest_, *item.entry);
   record.state.algorithm_version = kAlgorithmVersion;
-  return store_.record(record);
+  return record;
 }
 
 Status Run::complete(std::size_t index, PanoramaProjection* projection) {
@@ -140,9 +169,9 @@ Status Run::complete(std::size_t index, PanoramaProjection* projection) {
   const Clock::time_point write_begin = Clock::now();
   SHOAL_ASSIGN_OR_RETURN(outputs, write_item_maps(manifest_, *item.entry, result, stop_));
 
-  ItemRecord done;
-  done.state.status = ItemStatus::done;
+  ItemRecord done = record_of(item, ItemStatus::done);
   done.state.input_hash = input.content_hash;
+  done.input = input;
   done.state.outputs = outputs;
   done.projection = &result;
   done.timings.write_seconds = seconds_since(write_begin);
@@ -161,8 +190,7 @@ Status Run::complete(std::size_t index, PanoramaProjection* projection) {
   notes_[index].warnings = result.warnings;
   {
     const std::scoped_lock lock(mutex_);
-    remember([&] { return store_.record_input(stored_path(*item.entry), input); });
-    remember([&] { return record(item, std::move(done)); });
+    remember([&] { return store_.record(done); });
     ++done_count_;
     pixel_count_ += event.pixels;
     byte_count_ += event.bytes;
@@ -175,12 +203,11 @@ Status Run::complete(std::size_t index, PanoramaProjection* projection) {
 void Run::fail(std::size_t index, const Error& error) {
   const PlannedItem& item = *items_[index];
   notes_[index].failure = error.text();
-  ItemRecord failed;
-  failed.state.status = ItemStatus::failed;
+  ItemRecord failed = record_of(item, ItemStatus::failed);
   failed.state.error = error.text();
   {
     const std::scoped_lock lock(mutex_);
-    remember([&] { return record(item, std::move(failed)); });
+    remember([&] { return store_.record(failed); });
     if (settings_.on_failure == RunSettings::OnFailure::stop && !stop_.exchange(true)) {
       stopped_by_failure_ = true;
     }
@@ -206,6 +233,7 @@ Status Run::process() {
   SHOAL_RETURN_IF_ERROR(store_.mark_stale(names));
   JobSteps steps;
   steps.open = [this](std::size_t index) { return open(index); };
+  steps.prefetch = [this](std::size_t index, std::uint64_t limit) { prefetch(index, limit); };
   steps.finish = [this](std::size_t index, PanoramaProjection* projection, Status status) {
     finish(index, projection, std::move(status));
   };
@@ -245,14 +273,12 @@ ProgressTotals totals_of(const Plan& plan) {
 // The manifest's globs as they were expanded. The entries of one glob follow one another.
 std::vector<GlobExpansion> expansions_of(const Manifest& manifest) {
   std::vector<GlobExpansion> expansions;
-  const SourceLoc* last = nullptr;
+  const EntryOrigin* last = nullptr;
   for (const PanoramaEntry& entry : manifest.entries) {
-    if (entry.pattern.empty()) continue;
-    const bool same = last != nullptr && last->line == entry.loc.line &&
-                      last->column == entry.loc.column && last->file == entry.loc.file;
-    if (!same) expansions.push_back({entry.pattern, {}});
+    if (entry.origin->pattern.empty()) continue;
+    if (entry.origin.get() != last) expansions.push_back({entry.origin->pattern, {}});
     expansions.back().files.push_back(stored_path(entry));
-    last = &entry.loc;
+    last = entry.origin.get();
   }
   return expansions;
 }

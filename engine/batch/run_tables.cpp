@@ -1,7 +1,8 @@
 #include "batch/run_tables.h"
 
 #include <memory>
-#include <unordered_map>
+#include <optional>
+#include <utility>
 
 #include "batch/fingerprint.h"
 #include "batch/item_outputs.h"
@@ -19,29 +20,59 @@ std::filesystem::path table_path(const Manifest& manifest, TableFormat format) {
   return manifest.output / ("coefficients." + std::string(name_of(format)));
 }
 
+// An entry's projection in the store, and what it was projected from.
+struct Projected {
+  std::int64_t item = 0;
+  std::string input_hash;
+};
+
 // The entries that the tables hold, and a hash of all that the tables are a function of.
 struct TableContent {
-  std::vector<const PanoramaEntry*> entries;
+  struct Row {
+    const PanoramaEntry* entry;
+    std::int64_t item;  // in the store
+  };
+  std::vector<Row> rows;
   std::int64_t missing_count = 0;
   std::string hash;
 };
 
+// By the manifest's order; none where the store has no projection, or only one with other
+// parameters.
+Result<std::vector<std::optional<Projected>>> projected_entries(const Manifest& manifest,
+                                                                Store& store) {
+  const EntryIndex index_by_name = index_entries(manifest);
+  SettingsText parameters(parameter_text);
+  std::vector<std::optional<Projected>> projected(manifest.entries.size());
+  SHOAL_RETURN_IF_ERROR(store.for_each_item([&](const ItemRow& row) {
+    const auto found = index_by_name.find(row.name);
+    if (found == index_by_name.end() || row.status != ItemStatus::done ||
+        row.algorithm_version != kAlgorithmVersion ||
+        row.parameters != parameters.of(manifest.entries[found->second])) {
+      return;
+    }
+    projected[found->second] = {row.id, std::string(row.input_hash)};
+  }));
+  return projected;
+}
+
 Result<TableContent> table_content(const Manifest& manifest, Store& store) {
-  SHOAL_ASSIGN_OR_RETURN(items, store.items());
+  SHOAL_ASSIGN_OR_RETURN(projected, projected_entries(manifest, store));
   TableContent content;
   ContentHasher hasher;
-  for (const PanoramaEntry& entry : manifest.entries) {
-    const auto found = items.find(entry.name);
-    const bool usable = found != items.end() && found->second.status == ItemStatus::done &&
-                        found->second.parameters == parameter_text(entry) &&
-                        found->second.algorithm_version == kAlgorithmVersion;
-    if (!usable) {
+  SettingsText parameters(parameter_text);
+  SettingsText table([&](const EntrySettings& settings) { return table_hash(manifest, settings); });
+  for (std::size_t i = 0; i < manifest.entries.size(); ++i) {
+    const PanoramaEntry& entry = manifest.entries[i];
+    if (!projected[i]) {
       ++content.missing_count;
       continue;
     }
-    content.entries.push_back(&entry);
-    hasher.update(found->second.input_hash + found->second.parameters +
-                  table_hash(manifest, entry));
+    content.rows.push_back({&entry, projected[i]->item});
+    hasher.update(std::to_string(entry.name.size()) + ":" + entry.name);
+    hasher.update(projected[i]->input_hash);
+    hasher.update(parameters.of(entry));
+    hasher.update(table.of(entry));
   }
   for (const TableFormat format : manifest.tables)
     hasher.update(std::string(name_of(format)) + " ");
@@ -50,9 +81,10 @@ Result<TableContent> table_content(const Manifest& manifest, Store& store) {
   return content;
 }
 
-Status append_entry(const Manifest& manifest, const PanoramaEntry& entry, Store& store,
-                    const std::vector<std::unique_ptr<TableWriter>>& writers) {
-  SHOAL_ASSIGN_OR_RETURN(projection, store.find_projection(entry.name));
+Status append_row(const Manifest& manifest, const TableContent::Row& row, Store& store,
+                  const std::vector<std::unique_ptr<TableWriter>>& writers) {
+  const PanoramaEntry& entry = *row.entry;
+  SHOAL_ASSIGN_OR_RETURN(projection, store.find_projection(row.item));
   if (!projection) {
     return Error{ErrorCode::malformed, "the projection of " + entry.name + " is missing",
                  (manifest.output / kStoreFileName).string(), "run with --force"};
@@ -91,9 +123,12 @@ Result<RunTables> write_run_tables(const Manifest& manifest, Store& store) {
         writer, create_table(format, table_path(manifest, format), VariantColumn::present));
     writers.push_back(std::move(writer));
   }
-  for (const PanoramaEntry* entry : content.entries) {
-    SHOAL_RETURN_IF_ERROR(append_entry(manifest, *entry, store, writers));
-  }
+  SHOAL_RETURN_IF_ERROR(store.read_in_one([&]() -> Status {
+    for (const TableContent::Row& row : content.rows) {
+      SHOAL_RETURN_IF_ERROR(append_row(manifest, row, store, writers));
+    }
+    return {};
+  }));
   std::vector<OutputRecord> outputs;
   for (std::size_t i = 0; i < writers.size(); ++i) {
     SHOAL_ASSIGN_OR_RETURN(files, writers[i]->commit());

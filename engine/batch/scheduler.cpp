@@ -41,19 +41,47 @@ class Pool {
       : count_(count), stop_(stop), pixels_done_(pixels_done), steps_(steps) {}
 
   void run(int threads) {
-    std::vector<std::jthread> workers;
-    running_ = threads;
-    for (int i = 0; i < threads; ++i) workers.emplace_back([this] { work(); });
+    most_ = threads;
+    prefetches_ = threads == 1 && steps_.prefetch;
     std::unique_lock lock(mutex_);
+    const bool works_here = !steps_.tick || !enlist();
+    if (works_here) {
+      ++started_;
+      ++running_;
+    }
+    const auto at_once = static_cast<int>(std::min(static_cast<std::size_t>(threads), count_));
+    while (started_ < at_once && enlist()) {
+    }
+    if (works_here) {
+      lock.unlock();
+      work();
+      lock.lock();
+    }
     while (!ended_.wait_for(lock, std::chrono::milliseconds(100), [&] { return running_ == 0; })) {
       lock.unlock();
-      steps_.tick();
+      if (steps_.tick) steps_.tick();
       lock.lock();
     }
   }
 
  private:
   using JobPosition = std::list<OpenJob>::iterator;
+
+  // Starts one more worker where there may be. As many as there are jobs start at once, others when
+  // a job has bands for them, so one small file starts none (0.2 ms). The system may refuse; then
+  // those that run do all of the work. The mutex is held.
+  bool enlist() {
+    if (started_ >= most_) return false;
+    try {
+      workers_.emplace_back([this] { work(); });
+    } catch (const std::exception&) {
+      most_ = started_;
+      return false;
+    }
+    ++started_;
+    ++running_;
+    return true;
+  }
 
   void work() {
     while (begin_next() || help()) {
@@ -66,6 +94,7 @@ class Pool {
   bool begin_next() {
     const std::size_t index = next_++;
     if (index >= count_ || stop_) return false;
+    if (prefetches_ && index + 1 < count_) steps_.prefetch(index + 1, kPrefetchBytes);
     auto opened = guarded([&] { return steps_.open(index); });
     if (!opened || *opened == nullptr) {
       finish(index, nullptr, opened ? Status() : Status(std::move(opened).error()));
@@ -106,6 +135,7 @@ class Pool {
     ++busy_;
     changed_.notify_all();
     PanoramaProjection* projection = job->projection.get();
+    if (has_bands_for_two(*projection)) enlist();
     lock.unlock();
     Status status = guarded([&] { return projection->work(stop_, pixels_done_); });
     lock.lock();
@@ -130,19 +160,29 @@ class Pool {
     if (!told) static_cast<void>(tell(nullptr, std::move(told)));
   }
 
+  static bool has_bands_for_two(const PanoramaProjection& projection) {
+    const PictureInfo& info = projection.info();
+    return info.band_access == BandAccess::random && info.band_count > 1 &&
+           projection.wants_workers();
+  }
+
   const std::size_t count_;
   const std::atomic<bool>& stop_;
   std::atomic<std::int64_t>& pixels_done_;
   const JobSteps& steps_;
 
   std::atomic<std::size_t> next_{0};
+  bool prefetches_ = false;
   std::mutex mutex_;  // guards what follows
   std::condition_variable changed_;
   std::condition_variable ended_;
   std::list<OpenJob> open_;
-  int running_ = 0;  // workers that have not left
-  int idle_ = 0;     // workers that wait for something to help with
-  int busy_ = 0;     // workers inside work_on
+  int most_ = 0;  // workers that may be started
+  int started_ = 0;
+  int running_ = 0;                    // workers that have not left
+  int idle_ = 0;                       // workers that wait for something to help with
+  int busy_ = 0;                       // workers inside work_on
+  std::vector<std::jthread> workers_;  // all but the calling thread
 };
 
 }  // namespace

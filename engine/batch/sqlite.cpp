@@ -112,10 +112,12 @@ double SqlStatement::real(int column) const {
   return sqlite3_column_double(statement_.get(), column);
 }
 
-std::string SqlStatement::text(int column) const {
+std::string SqlStatement::text(int column) const { return std::string(text_view(column)); }
+
+std::string_view SqlStatement::text_view(int column) const {
   const void* bytes = sqlite3_column_text(statement_.get(), column);
   const int size = sqlite3_column_bytes(statement_.get(), column);
-  return bytes ? std::string(static_cast<const char*>(bytes), size) : std::string();
+  return bytes ? std::string_view(static_cast<const char*>(bytes), size) : std::string_view();
 }
 
 std::span<const std::byte> SqlStatement::blob(int column) const {

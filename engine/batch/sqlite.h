@@ -46,6 +46,7 @@ class SqlStatement {
   [[nodiscard]] std::int64_t integer(int column) const;
   [[nodiscard]] double real(int column) const;                      // NaN for NULL
   [[nodiscard]] std::string text(int column) const;                 // empty for NULL
+  [[nodiscard]] std::string_view text_view(int column) const;       // until the next step()
   [[nodiscard]] std::span<const std::byte> blob(int column) const;  // until the next step()
 
  private:

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "batch/sqlite.h"
+#include "batch/store_database.h"
 #include "batch/store_projection.h"
-#include "batch/store_schema.h"
 #include "core/content_hash.h"
 
 namespace shoal {
@@ -29,18 +29,15 @@ constexpr const char* kUpsertItem =
     " write_seconds = excluded.write_seconds, finished_at = excluded.finished_at"
     " RETURNING id";
 
-// The order of columns that read_item() and read_output() go by.
+// The order of columns that read_item() goes by.
 constexpr const char* kSelectItems =
     "SELECT id, name, status, error, input_path, input_hash, parameters, output_hash,"
-    " algorithm_version FROM items";
-constexpr const char* kSelectItem =
-    "SELECT id, name, status, error, input_path, input_hash, parameters, output_hash,"
-    " algorithm_version FROM items WHERE name = ?";
+    " algorithm_version, size, mtime_ns, content_hash"
+    " FROM items LEFT JOIN inputs ON inputs.path = input_path";
+// The order of columns that read_output() goes by.
 constexpr const char* kSelectOutputs =
     "SELECT item, path, kind, content_hash, size FROM outputs WHERE item IS NOT NULL"
     " ORDER BY rowid";
-constexpr const char* kSelectOutputsOfItem =
-    "SELECT item, path, kind, content_hash, size FROM outputs WHERE item = ? ORDER BY rowid";
 constexpr const char* kSelectRunOutputs =
     "SELECT item, path, kind, content_hash, size FROM outputs WHERE item IS NULL ORDER BY rowid";
 constexpr const char* kInsertOutput =
@@ -64,16 +61,33 @@ ItemStatus status_named(std::string_view name) {
   return name == "failed" ? ItemStatus::failed : ItemStatus::stale;
 }
 
-ItemState read_item(const SqlStatement& row) {
-  ItemState item;
-  item.status = status_named(row.text(2));
-  item.error = row.text(3);
-  item.input_path = row.text(4);
-  item.input_hash = row.text(5);
-  item.parameters = row.text(6);
-  item.output_hash = row.text(7);
+ItemRow read_item(const SqlStatement& row) {
+  ItemRow item;
+  item.id = row.integer(0);
+  item.name = row.text_view(1);
+  item.status = status_named(row.text_view(2));
+  item.error = row.text_view(3);
+  item.input_path = row.text_view(4);
+  item.input_hash = row.text_view(5);
+  item.parameters = row.text_view(6);
+  item.output_hash = row.text_view(7);
   item.algorithm_version = static_cast<int>(row.integer(8));
+  if (const auto known_hash = row.text_view(11); !known_hash.empty()) {
+    item.input = {static_cast<std::uint64_t>(row.integer(9)), row.integer(10), known_hash};
+  }
   return item;
+}
+
+ItemState state_of(const ItemRow& row) {
+  ItemState state;
+  state.status = row.status;
+  state.error = row.error;
+  state.input_path = row.input_path;
+  state.input_hash = row.input_hash;
+  state.parameters = row.parameters;
+  state.output_hash = row.output_hash;
+  state.algorithm_version = row.algorithm_version;
+  return state;
 }
 
 OutputRecord read_output(const SqlStatement& row) {
@@ -89,56 +103,6 @@ std::string hash_of(const GlobExpansion& glob) {
     hasher.update(file);
   }
   return hasher.digest();
-}
-
-Error not_ours(const std::filesystem::path& path) {
-  return Error{ErrorCode::malformed, "is not a store of shoal", path.string(),
-               "move it away, or choose another output folder"};
-}
-
-Error no_store(const std::filesystem::path& path) {
-  return Error{ErrorCode::not_found, "there is no store", path.string(),
-               "`shoal run` makes it in the manifest's output folder"};
-}
-
-// What a run leaves that is killed before its first transaction: a database without anything.
-Result<bool> is_empty(SqlDatabase& database) {
-  SHOAL_ASSIGN_OR_RETURN(id, database.integer_of("PRAGMA application_id"));
-  SHOAL_ASSIGN_OR_RETURN(tables, database.integer_of("SELECT count(*) FROM sqlite_master"));
-  return id == 0 && tables == 0;
-}
-
-Status check_version(SqlDatabase& database, const std::filesystem::path& path) {
-  SHOAL_ASSIGN_OR_RETURN(id, database.integer_of("PRAGMA application_id"));
-  if (id != kStoreApplicationId) return not_ours(path);
-  SHOAL_ASSIGN_OR_RETURN(version, database.integer_of("PRAGMA user_version"));
-  if (version == kStoreVersion) return {};
-  return Error{ErrorCode::unsupported,
-               "the store has version " + std::to_string(version) + ", this shoal knows version " +
-                   std::to_string(kStoreVersion),
-               path.string(), "use the shoal that wrote it, or choose another output folder"};
-}
-
-// In one transaction, so that a kill leaves an empty database or a whole schema.
-Status make_schema(SqlDatabase& database, const std::filesystem::path& path) {
-  SHOAL_RETURN_IF_ERROR(database.execute("BEGIN IMMEDIATE"));
-  // Another process may have been here first.
-  SHOAL_ASSIGN_OR_RETURN(id, database.integer_of("PRAGMA application_id"));
-  if (id == kStoreApplicationId) return database.execute("COMMIT");
-  SHOAL_ASSIGN_OR_RETURN(empty, is_empty(database));
-  if (!empty) return not_ours(path);
-  SHOAL_RETURN_IF_ERROR(database.execute(kStoreSchema));
-  const std::string marks = "PRAGMA application_id = " + std::to_string(kStoreApplicationId) +
-                            "; PRAGMA user_version = " + std::to_string(kStoreVersion) + "; COMMIT";
-  return database.execute(marks.c_str());
-}
-
-Status prepare_folder(const std::filesystem::path& path) {
-  std::error_code code;
-  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), code);
-  if (!code) return {};
-  return Error{ErrorCode::write_failed, "the output folder cannot be made: " + code.message(),
-               path.parent_path().string(), "check the permissions of the folders above it"};
 }
 
 }  // namespace
@@ -193,8 +157,14 @@ struct Store::Impl {
     return database.in_transaction() ? run("COMMIT") : Status();
   }
 
+  Status replace_input(std::string_view path, const InputState& state) {
+    return run("INSERT OR REPLACE INTO inputs VALUES (?,?,?,?)", path,
+               static_cast<std::int64_t>(state.size), state.mtime_ns, state.content_hash);
+  }
+
   Status replace_item(const ItemRecord& item) {
     const ItemState& state = item.state;
+    if (item.input) SHOAL_RETURN_IF_ERROR(replace_input(state.input_path, *item.input));
     std::int64_t id = 0;
     SHOAL_RETURN_IF_ERROR(query(
         kUpsertItem, [&](const SqlStatement& row) { id = row.integer(0); }, item.name,
@@ -229,6 +199,21 @@ struct Store::Impl {
     return {};
   }
 
+  template <typename Key>
+  Result<std::optional<Projection>> find_projection(const char* sql, const Key& key) {
+    Result<std::optional<Projection>> found = std::optional<Projection>();
+    const auto take = [&](const SqlStatement& row) {
+      auto projection = read_projection(row);
+      if (projection) {
+        found = std::optional<Projection>(std::move(*projection));
+      } else {
+        found = std::move(projection).error();
+      }
+    };
+    SHOAL_RETURN_IF_ERROR(query(sql, take, key));
+    return found;
+  }
+
   SqlDatabase database;
   std::unordered_map<const char*, SqlStatement> statements;
   Clock::time_point last_commit = Clock::now();
@@ -240,91 +225,63 @@ Store& Store::operator=(Store&&) noexcept = default;
 Store::~Store() = default;
 
 Result<Store> Store::open(const std::filesystem::path& path, Access access) {
-  std::error_code ignored;
-  if (access == Access::write) {
-    SHOAL_RETURN_IF_ERROR(prepare_folder(path));
-  } else if (!std::filesystem::exists(path, ignored)) {
-    return no_store(path);
-  }
-  const auto create =
-      access == Access::write ? SqlDatabase::Create::when_missing : SqlDatabase::Create::never;
-  SHOAL_ASSIGN_OR_RETURN(database, SqlDatabase::open(path, create));
-  SHOAL_RETURN_IF_ERROR(database.execute("PRAGMA foreign_keys = ON; PRAGMA cache_size = -32768"));
-  if (access == Access::write) {
-    SHOAL_ASSIGN_OR_RETURN(id, database.integer_of("PRAGMA application_id"));
-    if (id == 0) SHOAL_RETURN_IF_ERROR(make_schema(database, path));
-  } else {
-    SHOAL_RETURN_IF_ERROR(database.execute("PRAGMA query_only = ON"));
-    SHOAL_ASSIGN_OR_RETURN(empty, is_empty(database));
-    if (empty) return no_store(path);
-  }
-  SHOAL_RETURN_IF_ERROR(check_version(database, path));
+  SHOAL_ASSIGN_OR_RETURN(database, open_store_database(path, access));
   return Store(std::make_unique<Impl>(std::move(database)));
+}
+
+Status Store::for_each_item(const std::function<void(const ItemRow&)>& take) {
+  return impl_->query(kSelectItems, [&](const SqlStatement& row) { take(read_item(row)); });
+}
+
+Status Store::for_each_output(const std::function<void(std::int64_t, OutputRecord)>& take) {
+  return impl_->query(kSelectOutputs,
+                      [&](const SqlStatement& row) { take(row.integer(0), read_output(row)); });
 }
 
 Result<std::unordered_map<std::string, ItemState>> Store::items() {
   std::unordered_map<std::string, ItemState> items;
   std::unordered_map<std::int64_t, ItemState*> by_id;
-  SHOAL_RETURN_IF_ERROR(impl_->query(kSelectItems, [&](const SqlStatement& row) {
-    ItemState& item = items[row.text(1)] = read_item(row);
-    by_id[row.integer(0)] = &item;
+  SHOAL_RETURN_IF_ERROR(for_each_item([&](const ItemRow& row) {
+    by_id[row.id] = &(items[std::string(row.name)] = state_of(row));
   }));
-  SHOAL_RETURN_IF_ERROR(impl_->query(kSelectOutputs, [&](const SqlStatement& row) {
-    const auto item = by_id.find(row.integer(0));
-    if (item != by_id.end()) item->second->outputs.push_back(read_output(row));
+  SHOAL_RETURN_IF_ERROR(for_each_output([&](std::int64_t id, OutputRecord output) {
+    const auto item = by_id.find(id);
+    if (item != by_id.end()) item->second->outputs.push_back(std::move(output));
   }));
   return items;
 }
 
-Result<std::unordered_map<std::string, InputState>> Store::inputs() {
-  std::unordered_map<std::string, InputState> inputs;
+Result<std::optional<InputState>> Store::find_input(std::string_view path) {
+  std::optional<InputState> input;
   SHOAL_RETURN_IF_ERROR(impl_->query(
-      "SELECT path, size, mtime_ns, content_hash FROM inputs", [&](const SqlStatement& row) {
-        inputs[row.text(0)] = {static_cast<std::uint64_t>(row.integer(1)), row.integer(2),
-                               row.text(3)};
-      }));
-  return inputs;
-}
-
-Result<std::optional<ItemState>> Store::find_item(std::string_view name) {
-  std::optional<ItemState> item;
-  std::int64_t id = 0;
-  SHOAL_RETURN_IF_ERROR(impl_->query(
-      kSelectItem,
+      "SELECT size, mtime_ns, content_hash FROM inputs WHERE path = ?",
       [&](const SqlStatement& row) {
-        id = row.integer(0);
-        item = read_item(row);
+        input = {static_cast<std::uint64_t>(row.integer(0)), row.integer(1), row.text(2)};
       },
-      name));
-  if (!item) return item;
-  SHOAL_RETURN_IF_ERROR(impl_->query(
-      kSelectOutputsOfItem,
-      [&](const SqlStatement& row) { item->outputs.push_back(read_output(row)); }, id));
-  return item;
+      path));
+  return input;
 }
 
 Result<std::optional<Projection>> Store::find_projection(std::string_view name) {
-  Result<std::optional<Projection>> found = std::optional<Projection>();
-  SHOAL_RETURN_IF_ERROR(impl_->query(
-      kSelectProjection,
-      [&](const SqlStatement& row) {
-        auto projection = read_projection(row);
-        if (projection) {
-          found = std::optional<Projection>(std::move(*projection));
-        } else {
-          found = std::move(projection).error();
-          found.error().where = name;
-        }
-      },
-      name));
+  auto found = impl_->find_projection(kSelectProjectionByName, name);
+  if (!found) found.error().where = name;
   return found;
 }
 
+Result<std::optional<Projection>> Store::find_projection(std::int64_t item) {
+  return impl_->find_projection(kSelectProjectionByItem, item);
+}
+
+Status Store::read_in_one(const std::function<Status()>& work) {
+  SHOAL_RETURN_IF_ERROR(flush());
+  SHOAL_RETURN_IF_ERROR(impl_->run("BEGIN"));
+  Status done = work();
+  Status ended = impl_->run("COMMIT");
+  return done ? std::move(ended) : std::move(done);
+}
+
 Status Store::record_input(std::string_view path, const InputState& state) {
-  return impl_->write([&] {
-    return impl_->run("INSERT OR REPLACE INTO inputs VALUES (?,?,?,?)", path,
-                      static_cast<std::int64_t>(state.size), state.mtime_ns, state.content_hash);
-  });
+  return impl_->write([&] { return impl_->replace_input(path, state); });
 }
 
 Status Store::mark_stale(std::span<const std::string> names) {

@@ -19,6 +19,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -73,6 +74,27 @@ struct ItemState {
   friend bool operator==(const ItemState&, const ItemState&) = default;
 };
 
+// The same for a pass over all items: what it points to lives until the pass goes on.
+struct ItemRow {
+  // A file as InputState tells it.
+  struct Input {
+    std::uint64_t size = 0;
+    std::int64_t mtime_ns = 0;
+    std::string_view content_hash;
+  };
+
+  std::int64_t id = 0;  // of the item in this store
+  std::string_view name;
+  ItemStatus status = ItemStatus::done;
+  std::string_view error;
+  std::string_view input_path;
+  std::string_view input_hash;
+  std::string_view parameters;
+  std::string_view output_hash;
+  int algorithm_version = 0;
+  std::optional<Input> input;  // what is known of the file at `input_path`
+};
+
 // Seconds of work in all threads together.
 struct ItemTimings {
   double decode_seconds = 0.0;
@@ -86,6 +108,7 @@ struct ItemRecord {
   std::string engine_version;
   ItemTimings timings;
   const Projection* projection = nullptr;  // of one that is done
+  std::optional<InputState> input;         // of its file, to be remembered as by record_input()
 };
 
 // A glob of the manifest and the files it stands for.
@@ -112,13 +135,22 @@ class Store {
   Store& operator=(Store&&) noexcept;
   ~Store();
 
-  // Everything in one pass, by panorama's name and by path. About 1.2 kB a panorama of two outputs.
+  // Hands over every item, then every output of an item with the item's id. In one pass each:
+  // 100,000 items take 0.2 s. Nothing may be asked of the store meanwhile.
+  Status for_each_item(const std::function<void(const ItemRow&)>& take);
+  Status for_each_output(const std::function<void(std::int64_t item, OutputRecord)>& take);
+
+  // All of that by panorama's name: about 1.2 kB a panorama of two outputs.
   Result<std::unordered_map<std::string, ItemState>> items();
-  Result<std::unordered_map<std::string, InputState>> inputs();
 
   // One at a time; nothing where the store has none.
-  Result<std::optional<ItemState>> find_item(std::string_view name);
+  Result<std::optional<InputState>> find_input(std::string_view path);
   Result<std::optional<Projection>> find_projection(std::string_view name);
+  Result<std::optional<Projection>> find_projection(std::int64_t item);  // by ItemRow::id
+
+  // Does `work`, which only reads, under one lock for all of it. A lock for each thing asked takes
+  // as long as finding a projection does.
+  Status read_in_one(const std::function<Status()>& work);
 
   // Remembers what a file's content hashed to.
   Status record_input(std::string_view path, const InputState& state);

@@ -71,8 +71,10 @@ Result<Coefficients> read_coefficients(std::int64_t degree, std::span<const std:
 const char* const kInsertProjection =
     "INSERT INTO projections VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)";
 
-const char* const kSelectProjection =
+const char* const kSelectProjectionByName =
     "SELECT projections.* FROM projections JOIN items ON items.id = item WHERE name = ?";
+
+const char* const kSelectProjectionByItem = "SELECT * FROM projections WHERE item = ?";
 
 Status write_projection(SqlStatement& insert, std::int64_t item, const Projection& projection) {
   const PixelReport& pixels = projection.pixels;

@@ -10,12 +10,13 @@
 namespace shoal {
 
 extern const char* const kInsertProjection;
-extern const char* const kSelectProjection;  // by the panorama's name
+extern const char* const kSelectProjectionByName;  // of the panorama
+extern const char* const kSelectProjectionByItem;
 
 // Runs a prepared kInsertProjection.
 Status write_projection(SqlStatement& insert, std::int64_t item, const Projection& projection);
 
-// What the current row of a kSelectProjection says. Error: malformed.
+// What the current row of such a selection says. Error: malformed.
 Result<Projection> read_projection(const SqlStatement& row);
 
 }  // namespace shoal

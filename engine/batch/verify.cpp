@@ -79,7 +79,6 @@ void recompute(Store& store, const std::vector<NamedItem>& items, const VerifyOp
     const std::scoped_lock lock(mutex);
     if (!text.empty()) problems[index] = text;
   };
-  steps.tick = [] {};
   std::atomic<std::int64_t> pixels_done{0};
   run_jobs(items.size(), options.threads, stop, pixels_done, steps);
   for (auto& [index, text] : problems) report.problems.push_back(std::move(text));

@@ -8,11 +8,11 @@
 #include <optional>
 #include <utility>
 
-#include "kernels/byte_planes.h"
 #include "kernels/row_moments.h"
 #include "sphere/linear_operations.h"
 #include "transform/moment_table.h"
 #include "transform/reference_projector.h"
+#include "transform/simd_codecs.h"
 
 namespace shoal {
 namespace {
@@ -23,8 +23,6 @@ constexpr std::uint32_t kHugeMagnitudeBits = (112U + 127U) << 23;
 constexpr float kHugeScale = 0x1p-16F;
 
 using Clock = std::chrono::steady_clock;
-
-ChunkCodecs simd_chunk_codecs() { return {kernels::undo_predictor_and_split}; }
 
 EquirectGrid grid_of(const PictureInfo& info) {
   return {info.width, info.height,
@@ -318,7 +316,10 @@ Status PanoramaProjection::work(const std::atomic<bool>& stop,
   impl.tally.merge(worker.tally);
   impl.seconds.reading += seconds.reading;
   impl.seconds.projecting += seconds.projecting;
-  if (stop) return Error{ErrorCode::interrupted, "interrupted", impl.path, ""};
+  if (stop) {
+    impl.failed = true;  // or workers without work would join it again and again
+    return Error{ErrorCode::interrupted, "interrupted", impl.path, ""};
+  }
   return {};
 }
 

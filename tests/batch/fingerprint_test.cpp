@@ -13,27 +13,27 @@
 namespace shoal {
 namespace {
 
-using EntryChange = std::pair<const char*, std::function<void(PanoramaEntry&)>>;
+using SettingsChange = std::pair<const char*, std::function<void(EntrySettings&)>>;
 using ManifestChange = std::pair<const char*, std::function<void(Manifest&)>>;
 
 // Every field that a projection depends on, each changed from its default.
-const std::vector<EntryChange>& projection_changes() {
-  static const std::vector<EntryChange> kChanges = {
-      {"layer", [](PanoramaEntry& e) { e.read.layer = "diffuse"; }},
-      {"part", [](PanoramaEntry& e) { e.read.part = "diffuse"; }},
-      {"rgbe_decode", [](PanoramaEntry& e) { e.read.rgbe_decode = RgbeDecode::center; }},
-      {"encoding", [](PanoramaEntry& e) { e.read.encoding = Encoding::linear; }},
-      {"degree", [](PanoramaEntry& e) { e.projection.degree = 3; }},
-      {"midpoint", [](PanoramaEntry& e) { e.projection.quadrature = Quadrature::midpoint; }},
-      {"fejer", [](PanoramaEntry& e) { e.projection.quadrature = Quadrature::fejer; }},
+const std::vector<SettingsChange>& projection_changes() {
+  static const std::vector<SettingsChange> kChanges = {
+      {"layer", [](EntrySettings& s) { s.read.layer = "diffuse"; }},
+      {"part", [](EntrySettings& s) { s.read.part = "diffuse"; }},
+      {"rgbe_decode", [](EntrySettings& s) { s.read.rgbe_decode = RgbeDecode::center; }},
+      {"encoding", [](EntrySettings& s) { s.read.encoding = Encoding::linear; }},
+      {"degree", [](EntrySettings& s) { s.projection.degree = 3; }},
+      {"midpoint", [](EntrySettings& s) { s.projection.quadrature = Quadrature::midpoint; }},
+      {"fejer", [](EntrySettings& s) { s.projection.quadrature = Quadrature::fejer; }},
       {"nonfinite",
-       [](PanoramaEntry& e) { e.projection.pixels.nonfinite = PixelPolicy::NonFinite::zero; }},
+       [](EntrySettings& s) { s.projection.pixels.nonfinite = PixelPolicy::NonFinite::zero; }},
       {"negative",
-       [](PanoramaEntry& e) { e.projection.pixels.negative = PixelPolicy::Negative::zero; }},
-      {"clamp", [](PanoramaEntry& e) { e.projection.pixels.clamp = 100.0; }},
+       [](EntrySettings& s) { s.projection.pixels.negative = PixelPolicy::Negative::zero; }},
+      {"clamp", [](EntrySettings& s) { s.projection.pixels.clamp = 100.0; }},
       {"a clamp one bit away",
-       [](PanoramaEntry& e) { e.projection.pixels.clamp = std::nextafter(100.0, 200.0); }},
-      {"reference", [](PanoramaEntry& e) { e.projection.arithmetic = Arithmetic::reference; }},
+       [](EntrySettings& s) { s.projection.pixels.clamp = std::nextafter(100.0, 200.0); }},
+      {"reference", [](EntrySettings& s) { s.projection.arithmetic = Arithmetic::reference; }},
   };
   return kChanges;
 }
@@ -59,6 +59,12 @@ PanoramaEntry entry() {
   return entry;
 }
 
+void change_linear(PanoramaEntry& entry, const std::function<void(LinearKeys&)>& change) {
+  EntrySettings settings = *entry.settings;
+  change(settings.linear);
+  entry.settings = std::make_shared<EntrySettings>(settings);
+}
+
 Manifest manifest() {
   Manifest manifest;
   manifest.entries = {entry()};
@@ -79,9 +85,9 @@ void expect_all_different(const std::map<std::string, std::string>& hash_by_name
 }
 
 TEST(Fingerprint, EveryParameterOfAProjectionChangesItsText) {
-  std::map<std::string, std::string> texts = {{"default", parameter_text(entry())}};
+  std::map<std::string, std::string> texts = {{"default", parameter_text({})}};
   for (const auto& [name, change] : projection_changes()) {
-    PanoramaEntry changed = entry();
+    EntrySettings changed;
     change(changed);
     texts[name] = parameter_text(changed);
   }
@@ -89,11 +95,11 @@ TEST(Fingerprint, EveryParameterOfAProjectionChangesItsText) {
 }
 
 TEST(Fingerprint, ParametersReadBack) {
-  std::vector<PanoramaEntry> entries = {entry(), entry()};
+  std::vector<EntrySettings> all(2);
   for (const auto& [name, change] : projection_changes()) {
-    entries.push_back(entry());
-    change(entries.back());
-    change(entries[1]);  // all of them at once
+    all.emplace_back();
+    change(all.back());
+    change(all[1]);  // all of them at once
   }
   const std::vector<std::string> texts = {"a \"quoted\" one",
                                           "back\\slash",
@@ -108,16 +114,13 @@ TEST(Fingerprint, ParametersReadBack) {
                                           "- a",
                                           "'"};
   for (const std::string& text : texts) {
-    entries.push_back(entry());
-    entries.back().read.layer = text;
-    entries.push_back(entry());
-    entries.back().read.part = text;
+    all.emplace_back().read.layer = text;
+    all.emplace_back().read.part = text;
   }
   for (const double clamp : {1e-300, 0.1, 65504.0, 1.0 / 3.0, std::numeric_limits<double>::max()}) {
-    entries.push_back(entry());
-    entries.back().projection.pixels.clamp = clamp;
+    all.emplace_back().projection.pixels.clamp = clamp;
   }
-  for (const PanoramaEntry& expected : entries) {
+  for (const EntrySettings& expected : all) {
     const std::string text = parameter_text(expected);
     EXPECT_EQ(text.find('\n'), std::string::npos) << "one line: " << text;
     const auto read = parse_parameters(text);
@@ -136,7 +139,7 @@ TEST(Fingerprint, ParametersReadBack) {
 }
 
 TEST(Fingerprint, WhatIsNoParameterTextIsAnError) {
-  const std::string good = parameter_text(entry());
+  const std::string good = parameter_text({});
   for (const std::string& text : {std::string(), std::string("{"), std::string("[1, 2]"),
                                   std::string("{degree: 2}"), good.substr(0, good.size() / 2)}) {
     const auto read = parse_parameters(text);
@@ -147,15 +150,11 @@ TEST(Fingerprint, WhatIsNoParameterTextIsAnError) {
 
 // What changes no bit of a projection must not make anything run again.
 TEST(Fingerprint, NothingElseIsAParameter) {
-  PanoramaEntry other = entry();
-  other.name = "other";
-  other.file = "/elsewhere.hdr";
+  EntrySettings other;
   other.tags = {"tag"};
-  other.pattern = "**";
-  other.loc.line = 7;
   other.read.rows_per_band = 3;
   for (const auto& [name, change] : linear_changes()) change(other.linear);
-  EXPECT_EQ(parameter_text(other), parameter_text(entry()));
+  EXPECT_EQ(parameter_text(other), parameter_text({}));
 }
 
 TEST(Fingerprint, OutputHashChangesWithAllThatMapsDependOn) {
@@ -190,7 +189,7 @@ TEST(Fingerprint, OutputHashChangesWithAllThatMapsDependOn) {
   cube.maps[0].layout = MapLayout::cube;
   for (const auto& [name, change] : linear_changes()) {
     Manifest changed = cube;
-    change(changed.entries[0].linear);
+    change_linear(changed.entries[0], change);
     hashes[std::string("entry's ") + name] = hash(changed);
     // The same said by the variant is the same.
     Manifest in_variant = cube;
@@ -200,7 +199,8 @@ TEST(Fingerprint, OutputHashChangesWithAllThatMapsDependOn) {
   expect_all_different(hashes);
 
   Manifest in_frame = manifest();
-  in_frame.entries[0].linear.frame = parse_frame("openexr").value();
+  change_linear(in_frame.entries[0],
+                [](LinearKeys& keys) { keys.frame = parse_frame("openexr").value(); });
   EXPECT_EQ(hash(in_frame), hash(manifest())) << "an equirect map does not know its frame";
 
   Manifest tables_only = manifest();
@@ -213,7 +213,7 @@ TEST(Fingerprint, WithoutMapsNothingLinearMatters) {
   Manifest plain = manifest();
   plain.maps.clear();
   Manifest changed = plain;
-  for (const auto& [name, change] : linear_changes()) change(changed.entries[0].linear);
+  for (const auto& [name, change] : linear_changes()) change_linear(changed.entries[0], change);
   EXPECT_EQ(output_hash(changed, changed.entries[0]), output_hash(plain, plain.entries[0]));
 }
 
@@ -233,9 +233,8 @@ TEST(Fingerprint, TableHashChangesWithAllThatRowsDependOn) {
        [](Manifest& m) {
          m.variants.push_back({"soft", {}, {}});
        }},
-      {"name", [](Manifest& m) { m.entries[0].name = "c"; }},
   };
-  const auto hash = [](const Manifest& m) { return table_hash(m, m.entries[0]); };
+  const auto hash = [](const Manifest& m) { return table_hash(m, *m.entries[0].settings); };
   std::map<std::string, std::string> hashes = {{"default", hash(manifest())}};
   for (const auto& [name, change] : changes) {
     Manifest changed = manifest();
@@ -244,7 +243,7 @@ TEST(Fingerprint, TableHashChangesWithAllThatRowsDependOn) {
   }
   for (const auto& [name, change] : linear_changes()) {
     Manifest changed = manifest();
-    change(changed.entries[0].linear);
+    change_linear(changed.entries[0], change);
     hashes[std::string("entry's ") + name] = hash(changed);
   }
   expect_all_different(hashes);
@@ -252,6 +251,30 @@ TEST(Fingerprint, TableHashChangesWithAllThatRowsDependOn) {
   Manifest maps_only = manifest();
   maps_only.maps[0].width = 17;
   EXPECT_EQ(hash(maps_only), hash(manifest())) << "maps are no business of tables";
+}
+
+// Made once for all that share their settings, and never kept for one that does not, though the
+// settings before be gone and their place taken.
+TEST(Fingerprint, ATextOfSettingsIsMadeWhereTheyDiffer) {
+  int count = 0;
+  SettingsText text([&count](const EntrySettings& settings) {
+    ++count;
+    return parameter_text(settings);
+  });
+  PanoramaEntry a = entry();
+  PanoramaEntry b = a;
+  EXPECT_EQ(text.of(a), parameter_text({}));
+  EXPECT_EQ(text.of(b), parameter_text({}));
+  EXPECT_EQ(count, 1);
+  for (const auto& [name, change] : projection_changes()) {
+    EntrySettings settings;
+    change(settings);
+    a.settings.reset();
+    b.settings.reset();
+    b.settings = std::make_shared<EntrySettings>(settings);
+    EXPECT_EQ(text.of(b), parameter_text(settings)) << name;
+  }
+  EXPECT_EQ(count, 1 + static_cast<int>(projection_changes().size()));
 }
 
 }  // namespace

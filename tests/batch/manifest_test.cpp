@@ -30,18 +30,18 @@ TEST_F(ManifestLoad, SmallestHasDefaults) {
   const PanoramaEntry& entry = manifest.entries[0];
   EXPECT_EQ(entry.name, "a");
   EXPECT_EQ(entry.file, folder_ / "a.hdr");
-  EXPECT_EQ(entry.loc.line, 3);
-  EXPECT_EQ(entry.loc.column, 5);
-  EXPECT_EQ(entry.projection.degree, 2);
-  EXPECT_EQ(entry.projection.quadrature, Quadrature::texel);
-  EXPECT_EQ(entry.projection.pixels.nonfinite, PixelPolicy::NonFinite::error);
-  EXPECT_EQ(entry.projection.pixels.negative, PixelPolicy::Negative::keep);
-  EXPECT_EQ(entry.projection.pixels.clamp, 0.0);
-  EXPECT_EQ(entry.read.rgbe_decode, RgbeDecode::floor);
-  EXPECT_EQ(entry.read.encoding, Encoding::srgb);
-  const ColourOperations colour = colour_of(entry, manifest.variants[0]);
+  EXPECT_EQ(entry.origin->loc.line, 3);
+  EXPECT_EQ(entry.origin->loc.column, 5);
+  EXPECT_EQ(entry.settings->projection.degree, 2);
+  EXPECT_EQ(entry.settings->projection.quadrature, Quadrature::texel);
+  EXPECT_EQ(entry.settings->projection.pixels.nonfinite, PixelPolicy::NonFinite::error);
+  EXPECT_EQ(entry.settings->projection.pixels.negative, PixelPolicy::Negative::keep);
+  EXPECT_EQ(entry.settings->projection.pixels.clamp, 0.0);
+  EXPECT_EQ(entry.settings->read.rgbe_decode, RgbeDecode::floor);
+  EXPECT_EQ(entry.settings->read.encoding, Encoding::srgb);
+  const ColourOperations colour = colour_of(*entry.settings, manifest.variants[0]);
   EXPECT_EQ(*combined_matrix(colour), glm::dmat3(1.0));
-  EXPECT_EQ(frame_of(entry, manifest.variants[0]), Frame{});
+  EXPECT_EQ(frame_of(*entry.settings, manifest.variants[0]), Frame{});
 }
 
 TEST_F(ManifestLoad, EveryKeyOfAnEntry) {
@@ -69,22 +69,22 @@ panoramas:
   ASSERT_TRUE(result.manifest) << result.messages;
   const PanoramaEntry& entry = result.manifest->entries[0];
   EXPECT_EQ(entry.name, "key/light");
-  EXPECT_THAT(entry.tags, ElementsAre("one", "two words"));
-  EXPECT_EQ(entry.projection.degree, 64);
-  EXPECT_EQ(entry.projection.quadrature, Quadrature::fejer);
-  EXPECT_EQ(entry.projection.pixels.nonfinite, PixelPolicy::NonFinite::zero);
-  EXPECT_EQ(entry.projection.pixels.negative, PixelPolicy::Negative::zero);
-  EXPECT_EQ(entry.projection.pixels.clamp, 1e5);
-  EXPECT_EQ(entry.read.rgbe_decode, RgbeDecode::center);
-  EXPECT_EQ(entry.read.encoding, Encoding::linear);
-  EXPECT_EQ(entry.read.layer, "beauty");
-  EXPECT_EQ(entry.read.part, "2");
-  EXPECT_EQ(entry.linear.exposure_stops, -1.5);
-  EXPECT_EQ(entry.linear.scale, 0.5);
+  EXPECT_THAT(entry.settings->tags, ElementsAre("one", "two words"));
+  EXPECT_EQ(entry.settings->projection.degree, 64);
+  EXPECT_EQ(entry.settings->projection.quadrature, Quadrature::fejer);
+  EXPECT_EQ(entry.settings->projection.pixels.nonfinite, PixelPolicy::NonFinite::zero);
+  EXPECT_EQ(entry.settings->projection.pixels.negative, PixelPolicy::Negative::zero);
+  EXPECT_EQ(entry.settings->projection.pixels.clamp, 1e5);
+  EXPECT_EQ(entry.settings->read.rgbe_decode, RgbeDecode::center);
+  EXPECT_EQ(entry.settings->read.encoding, Encoding::linear);
+  EXPECT_EQ(entry.settings->read.layer, "beauty");
+  EXPECT_EQ(entry.settings->read.part, "2");
+  EXPECT_EQ(entry.settings->linear.exposure_stops, -1.5);
+  EXPECT_EQ(entry.settings->linear.scale, 0.5);
   // The manifest spells rows; new red = 1 r + 2 g + 3 b.
-  EXPECT_EQ(*entry.linear.matrix * glm::dvec3(1, 10, 100), glm::dvec3(321, 654, 987));
-  EXPECT_EQ(entry.linear.white, glm::dvec3(1, 0.5, 0.25));
-  EXPECT_EQ(entry.linear.frame, *parse_frame("openexr"));
+  EXPECT_EQ(*entry.settings->linear.matrix * glm::dvec3(1, 10, 100), glm::dvec3(321, 654, 987));
+  EXPECT_EQ(entry.settings->linear.white, glm::dvec3(1, 0.5, 0.25));
+  EXPECT_EQ(entry.settings->linear.frame, *parse_frame("openexr"));
 }
 
 TEST_F(ManifestLoad, EntriesOverrideDefaultsAndVariantsReplace) {
@@ -100,16 +100,16 @@ variants: {plain: {}, dark: {exposure: -2, frame: three}, empty: }
   const auto& [a, b] = std::tie(result.manifest->entries[0], result.manifest->entries[1]);
   const auto& variants = result.manifest->variants;
   ASSERT_EQ(variants.size(), 3u);
-  EXPECT_EQ(a.projection.degree, 4);
-  EXPECT_EQ(b.projection.degree, 8);
-  EXPECT_THAT(a.tags, ElementsAre("all"));
-  EXPECT_THAT(b.tags, ElementsAre("mine"));
-  EXPECT_EQ(colour_of(a, variants[0]).exposure_stops, 1.0);
-  EXPECT_EQ(colour_of(b, variants[0]).exposure_stops, 2.0);
-  EXPECT_EQ(colour_of(b, variants[1]).exposure_stops, -2.0);
-  EXPECT_EQ(colour_of(b, variants[1]).scale, 3.0);
-  EXPECT_EQ(colour_of(b, variants[2]).exposure_stops, 2.0);
-  EXPECT_EQ(frame_of(b, variants[1]), *parse_frame("three"));
+  EXPECT_EQ(a.settings->projection.degree, 4);
+  EXPECT_EQ(b.settings->projection.degree, 8);
+  EXPECT_THAT(a.settings->tags, ElementsAre("all"));
+  EXPECT_THAT(b.settings->tags, ElementsAre("mine"));
+  EXPECT_EQ(colour_of(*a.settings, variants[0]).exposure_stops, 1.0);
+  EXPECT_EQ(colour_of(*b.settings, variants[0]).exposure_stops, 2.0);
+  EXPECT_EQ(colour_of(*b.settings, variants[1]).exposure_stops, -2.0);
+  EXPECT_EQ(colour_of(*b.settings, variants[1]).scale, 3.0);
+  EXPECT_EQ(colour_of(*b.settings, variants[2]).exposure_stops, 2.0);
+  EXPECT_EQ(frame_of(*b.settings, variants[1]), *parse_frame("three"));
 }
 
 TEST_F(ManifestLoad, MapsAndTheirFiles) {
@@ -217,8 +217,8 @@ output: ${env:SHOAL_TEST_OUTPUT}/x
   ::unsetenv("SHOAL_TEST_OUTPUT");
   ASSERT_TRUE(result.manifest) << result.messages;
   EXPECT_THAT(names(result), ElementsAre("a", "b", "c"));
-  EXPECT_EQ(result.manifest->entries[0].linear.exposure_stops, 3.0);
-  EXPECT_EQ(result.manifest->entries[0].projection.degree, 5);
+  EXPECT_EQ(result.manifest->entries[0].settings->linear.exposure_stops, 3.0);
+  EXPECT_EQ(result.manifest->entries[0].settings->projection.degree, 5);
   EXPECT_EQ(result.manifest->output, folder_ / "from-environment/x");
 }
 
@@ -227,7 +227,7 @@ TEST_F(ManifestLoad, SetsAreTakenLiterally) {
   const ManifestResult result = load("shoal: 1\npanoramas: [{file: a.hdr, layer: \"${x}\"}]\n",
                                      {.sets = {{"x", "${y} $${"}}});
   ASSERT_TRUE(result.manifest) << result.messages;
-  EXPECT_EQ(result.manifest->entries[0].read.layer, "${y} $${");
+  EXPECT_EQ(result.manifest->entries[0].settings->read.layer, "${y} $${");
 }
 
 TEST_F(ManifestLoad, Includes) {
@@ -254,9 +254,10 @@ tables: csv
   ASSERT_TRUE(result.manifest) << result.messages;
   EXPECT_THAT(names(result), ElementsAre("c", "a", "b"));  // included ones first, each file once
   for (const PanoramaEntry& entry : result.manifest->entries) {
-    EXPECT_EQ(entry.projection.degree, 5) << entry.name;
-    EXPECT_EQ(entry.linear.scale, 2.0) << entry.name;
-    EXPECT_EQ(entry.projection.pixels.negative, PixelPolicy::Negative::zero) << entry.name;
+    EXPECT_EQ(entry.settings->projection.degree, 5) << entry.name;
+    EXPECT_EQ(entry.settings->linear.scale, 2.0) << entry.name;
+    EXPECT_EQ(entry.settings->projection.pixels.negative, PixelPolicy::Negative::zero)
+        << entry.name;
   }
   std::vector<std::string> variants;
   for (const Variant& variant : result.manifest->variants) variants.push_back(variant.name);

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <fstream>
 #include <mutex>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -236,6 +237,7 @@ TEST_F(SchedulerTest, AfterStopNothingBeginsAndWhatIsOpenFinishes) {
   for (const int threads : kThreadCounts) {
     SCOPED_TRACE(threads);
     stop_ = false;
+    int finished = 0;
     std::vector<bool> begun(files_.size());
     run(
         files_.size(), threads,
@@ -246,11 +248,12 @@ TEST_F(SchedulerTest, AfterStopNothingBeginsAndWhatIsOpenFinishes) {
           }
           return open_file(index);
         },
-        [&](std::size_t index) {
-          if (index == 5) stop_ = true;
+        [&](std::size_t) {
+          const std::scoped_lock lock(mutex_);
+          if (++finished == 6) stop_ = true;
         });
     // Each worker had at most one job in hand when the stop came.
-    EXPECT_LE(std::ranges::count(begun, true), 6 + 2 * threads);
+    EXPECT_LE(std::ranges::count(begun, true), 6 + threads);
     for (std::size_t i = 0; i < files_.size(); ++i) {
       EXPECT_EQ(told_[i].finished, begun[i] ? 1 : 0) << i;
       if (told_[i].error) {
@@ -285,6 +288,62 @@ TEST_F(SchedulerTest, TheCallingThreadTicksWhileWorkersWork) {
   });
   EXPECT_GE(tick_threads_.size(), 2u);
   for (const auto& id : tick_threads_) EXPECT_EQ(id, std::this_thread::get_id());
+}
+
+// Without ticks the calling thread works: alone where there is nothing for a second one, first of
+// several otherwise.
+TEST_F(SchedulerTest, WithoutTicksTheCallingThreadIsAWorker) {
+  add_panorama(16, 8, MapFormat::hdr);
+  const auto threads_that_opened = [&](std::size_t count, int threads) {
+    std::set<std::thread::id> ids;
+    JobSteps steps;
+    steps.open = [&](std::size_t) {
+      {
+        const std::scoped_lock lock(mutex_);
+        ids.insert(std::this_thread::get_id());
+      }
+      if (count > 1) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      return open_file(0);
+    };
+    steps.finish = [](std::size_t, PanoramaProjection*, const Status& status) {
+      EXPECT_TRUE(status);
+    };
+    run_jobs(count, threads, stop_, pixels_done_, steps);
+    return ids;
+  };
+  const std::set alone{std::this_thread::get_id()};
+  EXPECT_EQ(threads_that_opened(1, 7), alone);
+  EXPECT_EQ(threads_that_opened(5, 1), alone);
+  const auto several = threads_that_opened(8, 3);
+  EXPECT_TRUE(several.contains(std::this_thread::get_id()));
+  EXPECT_EQ(several.size(), 3u) << "each of eight jobs takes 50 ms";
+}
+
+// One worker asks for each job before it opens the one ahead of it. Several ask for none.
+TEST_F(SchedulerTest, OneWorkerAsksForTheNextJob) {
+  constexpr std::size_t kCount = 20;
+  add_panorama(16, 8, MapFormat::hdr);
+  for (const int threads : kThreadCounts) {
+    std::vector<std::size_t> asked;
+    JobSteps steps;
+    steps.open = [&](std::size_t index) {
+      if (threads == 1) {
+        EXPECT_EQ(asked.size(), std::min(index + 1, kCount - 1));
+      }
+      return open_file(0);
+    };
+    steps.prefetch = [&](std::size_t index, std::uint64_t limit) {
+      asked.push_back(index);
+      EXPECT_EQ(limit, kPrefetchBytes);
+    };
+    steps.finish = [](std::size_t, PanoramaProjection*, const Status& status) {
+      EXPECT_TRUE(status);
+    };
+    run_jobs(kCount, threads, stop_, pixels_done_, steps);
+    std::vector<std::size_t> expected(threads == 1 ? kCount - 1 : 0);
+    std::iota(expected.begin(), expected.end(), std::size_t{1});
+    EXPECT_EQ(asked, expected) << threads << " threads";
+  }
 }
 
 TEST(Scheduler, ThereIsAtLeastOneProcessor) { EXPECT_GE(default_thread_count(), 1); }

@@ -130,10 +130,11 @@ TEST(StoreScale, AHundredThousandItems) {
   start = std::chrono::steady_clock::now();
   auto store = Store::open(folder / "s.db", Store::Access::write);
   const auto items = store->items();
-  const auto inputs = store->inputs();
   std::cout << "read all: " << seconds_since(start) << " s\n";
   ASSERT_EQ(items->size(), static_cast<std::size_t>(kItems));
-  ASSERT_EQ(inputs->size(), static_cast<std::size_t>(kItems));
+  int input_count = 0;
+  ASSERT_TRUE(store->for_each_item([&](const ItemRow& row) { input_count += row.input ? 1 : 0; }));
+  ASSERT_EQ(input_count, kItems);
 
   start = std::chrono::steady_clock::now();
   std::vector<std::string> names;

@@ -42,10 +42,9 @@ TEST(Store, GivesBackEverythingThatWasRecorded) {
     ASSERT_TRUE(items.ok()) << items.error().text();
     EXPECT_EQ(*items, (std::unordered_map<std::string, ItemState>{{item.name, item.state},
                                                                   {"broken", failed.state}}));
-    EXPECT_EQ(**store->find_item(item.name), item.state);
-    EXPECT_EQ(*store->find_item("nobody"), std::nullopt);
-    EXPECT_EQ(*store->inputs(),
-              (std::unordered_map<std::string, InputState>{{"/library/a.exr", input}}));
+    EXPECT_EQ(store->items()->at(item.name), item.state);
+    EXPECT_EQ(*store->find_input("/library/a.exr"), input);
+    EXPECT_EQ(*store->find_input("nowhere"), std::nullopt);
 
     const auto found = store->find_projection(item.name);
     ASSERT_TRUE(found.ok()) << found.error().text();
@@ -93,15 +92,15 @@ TEST(Store, RecordingAgainTakesThePlaceOfWhatWasThere) {
   again.state.outputs = {{"maps/a.new.exr", "map:irradiance", "new", 1}};
   again.state.parameters = "other parameters";
   ASSERT_TRUE(store->record(again).ok());
-  EXPECT_EQ(**store->find_item("a"), again.state);
+  EXPECT_EQ(store->items()->at("a"), again.state);
   EXPECT_EQ(store->find_projection("a")->value().radiance, second.radiance);
-  EXPECT_EQ(**store->find_item("b"), some_item("b", &first).state);
+  EXPECT_EQ(store->items()->at("b"), some_item("b", &first).state);
 
   ItemRecord failed = some_item("a", nullptr);
   failed.state.status = ItemStatus::failed;
   failed.state.outputs.clear();
   ASSERT_TRUE(store->record(failed).ok());
-  EXPECT_EQ(**store->find_item("a"), failed.state);
+  EXPECT_EQ(store->items()->at("a"), failed.state);
   EXPECT_FALSE(store->find_projection("a")->has_value());
   EXPECT_TRUE(store->find_projection("b")->has_value());
 }
@@ -156,7 +155,7 @@ TEST(Store, RunOutputsAndPropertiesAreReplaced) {
   EXPECT_EQ(*store->run_outputs(), tables);
   ASSERT_TRUE(store->set_run_outputs({}).ok());
   EXPECT_TRUE(store->run_outputs()->empty());
-  EXPECT_EQ((*store->find_item("a"))->outputs.size(), 2u);
+  EXPECT_EQ(store->items()->at("a").outputs.size(), 2u);
 
   EXPECT_EQ(*store->property("tables"), "");
   ASSERT_TRUE(store->set_property("tables", "x").ok());

@@ -99,7 +99,7 @@ TEST_F(VerifyTest, RecomputingFindsASingleBit) {
     value = std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) ^ 1);
     ItemRecord item;
     item.name = "b";
-    item.state = **store.find_item("b");
+    item.state = store.items()->at("b");
     item.projection = &**projection;
     ASSERT_TRUE(store.record(item));
   }
