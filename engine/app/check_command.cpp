@@ -16,12 +16,10 @@ int check(const ManifestOptions& options) {
 
 }  // namespace
 
-void add_check_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand(
-      "check", "Validate a manifest; print the plan and why each panorama would run");
+void add_check_options(CLI::App& command, Action& action) {
   auto options = std::make_shared<ManifestOptions>();
-  add_manifest_options(*command, *options);
-  command->callback([&action, options] { action = [options] { return check(*options); }; });
+  add_manifest_options(command, *options);
+  command.callback([&action, options] { action = [options] { return check(*options); }; });
 }
 
 }  // namespace shoal

@@ -1,5 +1,5 @@
-// The subcommands of shoal. Each adds itself to the parser and leaves in `action` what to do once
-// the command line is understood; the action returns the exit status.
+// The subcommands of shoal. Each adds its options to its parser and leaves in `action` what to do
+// once the command line is understood; the action returns the exit status.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -17,11 +17,12 @@ enum ExitStatus : int {
 
 using Action = std::function<int()>;
 
-void add_run_command(CLI::App& app, Action& action);
-void add_project_command(CLI::App& app, Action& action);
-void add_check_command(CLI::App& app, Action& action);
-void add_init_command(CLI::App& app, Action& action);
-void add_verify_command(CLI::App& app, Action& action);
-void add_targets_command(CLI::App& app, Action& action);
+void add_run_options(CLI::App& command, Action& action);
+void add_project_options(CLI::App& command, Action& action);
+void add_check_options(CLI::App& command, Action& action);
+void add_init_options(CLI::App& command, Action& action);
+void add_verify_options(CLI::App& command, Action& action);
+void add_preview_options(CLI::App& command, Action& action);
+void add_targets_options(CLI::App& command, Action& action);
 
 }  // namespace shoal

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <functional>
+#include <memory>
 
 #include "app/messages.h"
 #include "batch/scheduler.h"
@@ -21,12 +22,21 @@ void add_once(std::vector<T>& list, T value) {
 // What the manifest's reader has made sure of for the manifest as it stands.
 Status check_degrees(const Manifest& manifest) {
   if (std::ranges::find(manifest.tables, TableFormat::npy) == manifest.tables.end()) return {};
-  const auto degree = [](const PanoramaEntry& entry) { return entry.projection.degree; };
+  const auto degree = [](const PanoramaEntry& entry) { return entry.settings->projection.degree; };
   const bool differ = std::ranges::adjacent_find(manifest.entries, std::not_equal_to{}, degree) !=
                       manifest.entries.end();
   if (!differ) return {};
   return Error{ErrorCode::usage, "an npy table has one degree, but the panoramas have several",
                manifest.path.string(), "give one with --degree, or leave npy out"};
+}
+
+EntrySettings overridden(const ComputeChoice& choice, EntrySettings settings) {
+  ProjectionSettings& projection = settings.projection;
+  if (choice.degree) projection.degree = *choice.degree;
+  if (choice.quadrature) projection.quadrature = *choice.quadrature;
+  projection.arithmetic = choice.arithmetic;
+  if (choice.frame) settings.linear.frame = choice.frame;
+  return settings;
 }
 
 }  // namespace
@@ -81,11 +91,15 @@ Result<ComputeChoice> understand(const ComputeOptions& options) {
 }
 
 Status override_manifest(const ComputeChoice& choice, Manifest& manifest) {
+  // Entries that share their settings follow one another, and share them afterwards as well.
+  std::shared_ptr<const EntrySettings> before;
+  std::shared_ptr<const EntrySettings> after;
   for (PanoramaEntry& entry : manifest.entries) {
-    if (choice.degree) entry.projection.degree = *choice.degree;
-    if (choice.quadrature) entry.projection.quadrature = *choice.quadrature;
-    entry.projection.arithmetic = choice.arithmetic;
-    if (choice.frame) entry.linear.frame = choice.frame;
+    if (entry.settings != before) {
+      before = entry.settings;
+      after = std::make_shared<EntrySettings>(overridden(choice, *before));
+    }
+    entry.settings = after;
   }
   if (choice.frame) {
     for (Variant& variant : manifest.variants) variant.linear.frame = choice.frame;

@@ -35,13 +35,10 @@ int init(const std::string& folder) {
 
 }  // namespace
 
-void add_init_command(CLI::App& app, Action& action) {
-  CLI::App* command =
-      app.add_subcommand("init", "Write a commented manifest for a folder of panoramas");
+void add_init_options(CLI::App& command, Action& action) {
   auto folder = std::make_shared<std::string>();
-  command->add_option("DIR", *folder, "The folder; its manifest will be DIR/shoal.yaml")
-      ->required();
-  command->callback([&action, folder] { action = [folder] { return init(*folder); }; });
+  command.add_option("DIR", *folder, "The folder; its manifest will be DIR/shoal.yaml")->required();
+  command.callback([&action, folder] { action = [folder] { return init(*folder); }; });
 }
 
 }  // namespace shoal

@@ -10,6 +10,7 @@
 #include "app/interrupt.h"
 #include "app/messages.h"
 #include "batch/scheduler.h"
+#include "core/input_file.h"
 
 namespace shoal {
 namespace {
@@ -92,11 +93,13 @@ int project_files(const std::vector<std::string>& files, const ComputeChoice& ch
   steps.open = [&](std::size_t index) {
     return PanoramaProjection::open(files[index], {}, settings_of(choice), tables);
   };
+  steps.prefetch = [&](std::size_t index, std::uint64_t limit) {
+    prefetch_file(files[index], limit);
+  };
   steps.finish = [&](std::size_t index, PanoramaProjection* projection, Status status) {
     table.take(index,
                status ? projection->finish() : Result<Projection>(std::move(status).error()));
   };
-  steps.tick = [] {};
   run_jobs(files.size(), choice.threads, stop, pixels_done, steps);
   Status written = table.write_status() ? Status() : Status(table.write_status().error());
   if (written) {
@@ -127,16 +130,14 @@ int project(const ProjectCommand& command) {
 
 }  // namespace
 
-void add_project_command(CLI::App& app, Action& action) {
-  CLI::App* command =
-      app.add_subcommand("project", "Print the coefficients of panoramas; nothing is written");
+void add_project_options(CLI::App& command, Action& action) {
   auto options = std::make_shared<ProjectCommand>();
-  command->add_option("FILE", options->files, "Panoramas")->required();
-  add_compute_options(*command, options->compute);
-  command->add_option("--format", options->compute.formats, "csv (the default) or json")
+  command.add_option("FILE", options->files, "Panoramas")->required();
+  add_compute_options(command, options->compute);
+  command.add_option("--format", options->compute.formats, "csv (the default) or json")
       ->check(CLI::IsMember({"csv", "json"}))
       ->expected(1);
-  command->callback([&action, options] { action = [options] { return project(*options); }; });
+  command.callback([&action, options] { action = [options] { return project(*options); }; });
 }
 
 }  // namespace shoal

@@ -89,22 +89,20 @@ int run(const RunCommand& command) {
 
 }  // namespace
 
-void add_run_command(CLI::App& app, Action& action) {
-  CLI::App* command =
-      app.add_subcommand("run", "Process what a manifest names and is not up to date");
+void add_run_options(CLI::App& command, Action& action) {
   auto options = std::make_shared<RunCommand>();
-  add_manifest_options(*command, options->manifest);
-  add_compute_options(*command, options->compute);
+  add_manifest_options(command, options->manifest);
+  add_compute_options(command, options->compute);
   command
-      ->add_option("--format", options->compute.formats,
-                   "Tables to write: csv, json, npy; may be repeated")
+      .add_option("--format", options->compute.formats,
+                  "Tables to write: csv, json, npy; may be repeated")
       ->allow_extra_args(false)
       ->check(CLI::IsMember({"csv", "json", "npy"}));
-  command->add_flag("-n,--dry-run", options->dry_run, "Print the plan, do nothing");
-  command->add_flag("--explain", options->explain, "Say why each panorama runs");
-  command->add_flag("--fail-fast", options->fail_fast, "Stop at the first panorama that fails");
-  command->add_option("--progress", options->progress, "auto, bar, plain, json or none");
-  command->callback([&action, options] { action = [options] { return run(*options); }; });
+  command.add_flag("-n,--dry-run", options->dry_run, "Print the plan, do nothing");
+  command.add_flag("--explain", options->explain, "Say why each panorama runs");
+  command.add_flag("--fail-fast", options->fail_fast, "Stop at the first panorama that fails");
+  command.add_option("--progress", options->progress, "auto, bar, plain, json or none");
+  command.callback([&action, options] { action = [options] { return run(*options); }; });
 }
 
 }  // namespace shoal

@@ -37,16 +37,14 @@ int verify(const VerifyCommand& command) {
 
 }  // namespace
 
-void add_verify_command(CLI::App& app, Action& action) {
-  CLI::App* command =
-      app.add_subcommand("verify", "Hold the files of a run, read and written, against its store");
+void add_verify_options(CLI::App& command, Action& action) {
   auto options = std::make_shared<VerifyCommand>();
-  command->add_option("OUT", options->folder, "The output folder of a run")->required();
-  command->add_flag("--recompute", options->recompute,
-                    "Project every panorama again; coefficients must be the same bits");
-  command->add_option("-j,--threads", options->threads, "Workers; as many as processors by default")
+  command.add_option("OUT", options->folder, "The output folder of a run")->required();
+  command.add_flag("--recompute", options->recompute,
+                   "Project every panorama again; coefficients must be the same bits");
+  command.add_option("-j,--threads", options->threads, "Workers; as many as processors by default")
       ->check(CLI::Range(1, 1024));
-  command->callback([&action, options] { action = [options] { return verify(*options); }; });
+  command.callback([&action, options] { action = [options] { return verify(*options); }; });
 }
 
 }  // namespace shoal

@@ -1,0 +1,168 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "app/commands.h"
+#include "app/interrupt.h"
+#include "app/messages.h"
+#include "batch/scheduler.h"
+#include "output/text_quoting.h"
+#include "transform/preview.h"
+
+namespace shoal {
+namespace {
+
+constexpr int kMaxPreviewWidth = 1 << 14;
+
+struct PreviewCommand {
+  std::vector<std::string> files;
+  std::string folder;
+  int width = 256;
+  int threads = 0;
+  std::string format = "exr";
+};
+
+struct PreviewFormat {
+  std::string_view name;
+  MapFormat format;
+  std::string_view extension;
+};
+constexpr PreviewFormat kFormats[] = {{"exr", MapFormat::exr_float, "exr"},
+                                      {"exr-half", MapFormat::exr_half, "exr"},
+                                      {"hdr", MapFormat::hdr, "hdr"}};
+
+// How one file ended.
+struct Outcome {
+  bool ended = false;
+  std::string output;
+  int width = 0;
+  int height = 0;
+  std::vector<std::string> warnings;
+  Status status;
+};
+
+// Shrinks the files, a worker each at a time, and tells of them in their order, each as soon as
+// those before it have ended.
+class PreviewRun {
+ public:
+  PreviewRun(const PreviewCommand& command, const PreviewFormat& format,
+             const std::atomic<bool>& stop)
+      : command_(command), format_(format), stop_(stop), outcomes_(command.files.size()) {}
+
+  void run(int threads) {
+    const auto work = [this] {
+      while (!stop_) {
+        const std::size_t index = next_++;
+        if (index >= outcomes_.size()) return;
+        tell(index, shrink(index));
+      }
+    };
+    std::vector<std::jthread> workers;
+    const auto count = std::min(static_cast<std::size_t>(threads), outcomes_.size());
+    for (std::size_t i = 0; i < count; ++i) workers.emplace_back(work);
+  }
+
+  [[nodiscard]] const std::vector<PanoramaNote>& failures() const { return failures_; }
+  [[nodiscard]] const std::vector<PanoramaNote>& warnings() const { return warnings_; }
+
+ private:
+  // What a library throws ends one file, not the others.
+  Outcome shrink(std::size_t index) {
+    Outcome outcome;
+    try {
+      outcome.status = shrink(index, outcome);
+    } catch (const std::exception& exception) {
+      outcome.status = Error{ErrorCode::internal, std::string("unexpected: ") + exception.what(),
+                             command_.files[index], "please report this"};
+    }
+    outcome.ended = true;
+    return outcome;
+  }
+
+  Status shrink(std::size_t index, Outcome& outcome) {
+    SHOAL_ASSIGN_OR_RETURN(preview, make_preview(command_.files[index], {}, command_.width, stop_));
+    const std::filesystem::path output = std::filesystem::path(command_.folder) /
+                                         fmt::format("{:06}.{}", index + 1, format_.extension);
+    outcome.output = output.string();
+    outcome.width = preview.width;
+    outcome.height = preview.height;
+    outcome.warnings = std::move(preview.warnings);
+    return write_preview(preview, format_.format, output);
+  }
+
+  void tell(std::size_t index, Outcome outcome) {
+    const std::scoped_lock lock(mutex_);
+    outcomes_[index] = std::move(outcome);
+    for (; next_told_ < outcomes_.size() && outcomes_[next_told_].ended; ++next_told_) {
+      print(command_.files[next_told_], outcomes_[next_told_]);
+    }
+  }
+
+  void print(const std::string& file, const Outcome& outcome) {
+    if (outcome.status) {
+      fmt::print("{{\"input\": {}, \"output\": {}, \"width\": {}, \"height\": {}}}\n",
+                 json_quoted(file), json_quoted(outcome.output), outcome.width, outcome.height);
+    } else if (outcome.status.error().code != ErrorCode::interrupted) {
+      const std::string text = outcome.status.error().text();
+      fmt::print("{{\"input\": {}, \"error\": {}}}\n", json_quoted(file), json_quoted(text));
+      failures_.push_back({file, text});
+    }
+    for (const std::string& warning : outcome.warnings) warnings_.push_back({file, warning});
+  }
+
+  const PreviewCommand& command_;
+  const PreviewFormat& format_;
+  const std::atomic<bool>& stop_;
+  std::atomic<std::size_t> next_{0};
+  std::mutex mutex_;  // guards what follows
+  std::vector<Outcome> outcomes_;
+  std::size_t next_told_ = 0;
+  std::vector<PanoramaNote> failures_;
+  std::vector<PanoramaNote> warnings_;
+};
+
+int preview(const PreviewCommand& command) {
+  const PreviewFormat& format = *std::ranges::find(kFormats, command.format, &PreviewFormat::name);
+  const std::atomic<bool>& stop = stop_on_interrupt();
+  PreviewRun run(command, format, stop);
+  run.run(command.threads > 0 ? command.threads : default_thread_count());
+  print_warnings(run.warnings());
+  print_failures(run.failures());
+  if (stop) return kExitInterrupted;
+  return run.failures().empty() ? kExitOk : kExitFailed;
+}
+
+}  // namespace
+
+void add_preview_options(CLI::App& command, Action& action) {
+  auto options = std::make_shared<PreviewCommand>();
+  command.add_option("FILE", options->files, "Panoramas")->required();
+  command
+      .add_option("-o,--output", options->folder,
+                  "Folder for 000001.exr, 000002.exr ... in the order of FILE; a line of JSON each "
+                  "on standard output says which is whose")
+      ->required();
+  command
+      .add_option("--width", options->width,
+                  "Of the pictures, 256 by default; never more than the panorama has. The height "
+                  "is half of it")
+      ->check(CLI::Range(1, kMaxPreviewWidth));
+  command.add_option("-j,--threads", options->threads, "Workers; as many as processors by default")
+      ->check(CLI::Range(1, 1024));
+  command.add_option("--format", options->format, "exr (float, the default), exr-half or hdr")
+      ->check(CLI::IsMember({"exr", "exr-half", "hdr"}));
+  command.callback([&action, options] { action = [options] { return preview(*options); }; });
+}
+
+}  // namespace shoal
