@@ -1,8 +1,11 @@
 #!/usr/bin/env python3
-"""Checks every include of engine/ against the arrows of the house, and who may include which library.
+"""Checks every include of engine/ and viz/ against the arrows of their houses, and who may include which
+library.
 
-    app -> batch -> {transform, output, image};  transform -> {image, kernels, sphere}
-    output -> sphere;  all -> core
+    engine   app -> batch -> {transform, output, image};  transform -> {image, kernels, sphere}
+             output -> sphere;  all -> core
+    viz      app -> {report, scenes, window, library};  scenes -> {window, library};  report -> library
+             all -> the engine's core, output and sphere, and nothing else of it; window -> core
 """
 import pathlib
 import re
@@ -10,64 +13,80 @@ import sys
 
 # What a folder may include directly: its arrows, and what these reach without passing a door. `batch` and
 # `app` speak the language of the mathematics (frames, quantities), so sphere is theirs as well; `app` forces
-# SIMD targets through kernels/targets.h alone.
+# SIMD targets and shrinks pictures through one header each.
+MATHEMATICS = {"engine/core", "engine/output", "engine/sphere"}
 ARROWS = {
-    "core": set(),
-    "sphere": {"core"},
-    "kernels": {"core"},
-    "image": {"core"},
-    "output": {"core", "sphere"},
-    "transform": {"core", "image", "kernels", "sphere"},
-    "batch": {"core", "image", "output", "sphere", "transform"},
-    "app": {"batch", "core", "output", "sphere"},
+    "engine/core": set(),
+    "engine/sphere": {"engine/core"},
+    "engine/kernels": {"engine/core"},
+    "engine/image": {"engine/core"},
+    "engine/output": {"engine/core", "engine/sphere"},
+    "engine/transform": {"engine/core", "engine/image", "engine/kernels", "engine/sphere"},
+    "engine/batch": {"engine/image", "engine/transform"} | MATHEMATICS,
+    "engine/app": {"engine/batch"} | MATHEMATICS,
+    "viz/library": MATHEMATICS,
+    "viz/window": {"engine/core"},
+    "viz/scenes": {"viz/library", "viz/window"} | MATHEMATICS,
+    "viz/report": {"viz/library"} | MATHEMATICS,
+    "viz/app": {"viz/library", "viz/report", "viz/scenes", "viz/window"} | MATHEMATICS,
 }
-ALLOWED_HEADERS = {("app", "kernels/targets.h")}
+ALLOWED_HEADERS = {("engine/app", "kernels/targets.h"), ("engine/app", "transform/preview.h")}
 
-# Libraries with one door: pattern of the include, and the paths (below engine/) that may use it.
+# Libraries with one door a house: pattern of the include, and the paths that may use it.
 LIBRARIES = {
-    r"hwy/": r"kernels/",
-    r"OpenImageIO/": r"image/module/",
-    r"(openexr|Imf|OpenEXR|Imath)": r"image/",
-    r"libdeflate": r"image/",
-    r"png\.h": r"image/",
-    r"sqlite3": r"batch/",
-    r"yaml-cpp/": r"batch/",
-    r"CLI/": r"app/",
-    r"vtk": r"(?!)",
-    r"xxhash": r"core/",
+    r"hwy/": r"engine/kernels/",
+    r"OpenImageIO/": r"engine/image/module/",
+    r"(openexr|Imf|OpenEXR|Imath)": r"(engine/image|viz/library)/",
+    r"libdeflate": r"(engine/image|viz/report)/",
+    r"png\.h": r"(engine/image|viz/window)/",
+    r"sqlite3": r"(engine/batch|viz/library)/",
+    r"yaml-cpp/": r"engine/batch/",
+    r"json/": r"viz/library/",
+    r"CLI/": r"(engine|viz)/app/",
+    r"(vtk|X11/)": r"viz/(window|scenes|app)/",
+    r"(EGL|GL)/": r"viz/window/",
+    r"xxhash": r"engine/core/",
 }
 
 
-def problems(engine):
-    for path in sorted(engine.rglob("*")):
-        if path.suffix not in {".h", ".cpp"}:
-            continue
-        relative = path.relative_to(engine)
-        folder = relative.parts[0]
-        for number, line in enumerate(path.read_text().splitlines(), 1):
-            own = re.match(r'#include "([^"]+)"', line)
-            foreign = re.match(r"#include <([^>]+)>", line)
-            where = f"{relative}:{number}"
-            if own:
-                header = own.group(1)
-                target = header.split("/")[0]
-                if not (engine / header).is_file():
-                    yield f"{where}: \"{header}\" is not a path below engine/"
-                elif target != folder and target not in ARROWS[folder]:
-                    if (folder, header) not in ALLOWED_HEADERS:
-                        yield f"{where}: {folder} may not include {target}"
-            elif foreign:
-                for library, door in LIBRARIES.items():
-                    if re.match(library, foreign.group(1)) and not re.match(door, str(relative)):
-                        yield f"{where}: <{foreign.group(1)}> has another door than {folder}"
+def house_of(root, folder, header):
+    """Where a quoted include of a folder is found: headers are named from the roots of the houses."""
+    own = folder.split("/")[0]
+    return next((house for house in (own, "engine") if (root / house / header).is_file()), None)
+
+
+def problems(root, path):
+    relative = path.relative_to(root)
+    folder = "/".join(relative.parts[:2])
+    for number, line in enumerate(path.read_text().splitlines(), 1):
+        own = re.match(r'#include "([^"]+)"', line)
+        foreign = re.match(r"#include <([^>]+)>", line)
+        where = f"{relative}:{number}"
+        if own:
+            header = own.group(1)
+            house = house_of(root, folder, header)
+            target = f"{house}/{header.split('/')[0]}"
+            if house is None:
+                yield f'{where}: "{header}" is not a path below engine/ or viz/'
+            elif target != folder and target not in ARROWS[folder]:
+                if (folder, header) not in ALLOWED_HEADERS:
+                    yield f"{where}: {folder} may not include {target}"
+        elif foreign:
+            for library, door in LIBRARIES.items():
+                if re.match(library, foreign.group(1)) and not re.match(door, str(relative)):
+                    yield f"{where}: <{foreign.group(1)}> has another door than {folder}"
 
 
 def main():
-    engine = pathlib.Path(sys.argv[1])
-    folders = {p.name for p in engine.iterdir() if p.is_dir()}
-    found = list(problems(engine))
-    if folders != set(ARROWS):
-        found.append(f"folders {sorted(folders ^ set(ARROWS))} differ from the table")
+    root = pathlib.Path(sys.argv[1])
+    sources = [path for house in ("engine", "viz") for path in sorted((root / house).rglob("*"))
+               if path.suffix in {".h", ".cpp"}]
+    folders = {f"{house}/{path.name}" for house in ("engine", "viz") for path in (root / house).iterdir()
+               if path.is_dir()}
+    found = [] if folders == set(ARROWS) else [
+        f"folders {sorted(folders ^ set(ARROWS))} differ from the table"]
+    for path in sources:
+        found += problems(root, path)
     print("\n".join(found) or "every include follows the arrows")
     return 1 if found else 0
 

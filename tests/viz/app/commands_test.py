@@ -1,0 +1,145 @@
+"""shoal render and report: which files they write, and what they say where they cannot."""
+
+import os
+import pathlib
+import unittest
+
+import support
+from support import ShoalTest, write_hdr
+
+PNG = b"\x89PNG\r\n\x1a\n"
+
+
+class Commands(ShoalTest):
+    def make_output(self, more=""):
+        self.make_library(3)
+        self.write_manifest(more)
+        self.expect(0, "run", "m.yaml")
+
+    def render(self, status, *arguments):
+        """With as little to draw as there can be; no display, ever."""
+        return self.expect(status, "render", *arguments, "--size", "128x96", "--way", "surfaceless")
+
+    def assert_pictures(self, *names):
+        for name in names:
+            self.assertTrue((self.folder / name).read_bytes().startswith(PNG), name)
+
+
+class Rendering(Commands):
+    def test_one_picture(self):
+        self.make_output()
+        done = self.render(0, "out", "--panorama", "p01", "-o", "a.png")
+        self.assertEqual((done.out, done.err), ("a.png\n", ""))
+        self.assert_pictures("a.png")
+        before = (self.folder / "a.png").read_bytes()
+        self.render(0, "out", "--panorama", "p01", "-o", "a.png")
+        self.assertEqual((self.folder / "a.png").read_bytes(), before)
+
+    def test_a_picture_each(self):
+        self.make_output("variants: {plain: {}, dark: {exposure: -2}}\n")
+        done = self.render(0, "out", "--panorama", "p0[12]", "-o", "shots/")
+        names = [f"shots/{name}.png" for name in ("p01", "p01.dark", "p02", "p02.dark")]
+        self.assertEqual(done.out.splitlines(), names)
+        self.assert_pictures(*names)
+        # A name is that one's alone.
+        self.assertEqual(self.render(0, "out", "--panorama", "p01", "-o", "n-{name}.png").out, "n-p01.png\n")
+        done = self.render(2, "out", "-o", "one.png")
+        self.assertIn("one file for 6 pictures", done.err)
+        self.assertIn("-o DIR/", done.err)
+        self.assertFalse((self.folder / "one.png").exists())
+
+    def test_straight_from_files_with_names_that_lead_out(self):
+        write_hdr(self.folder / "a/x.hdr", 1)
+        write_hdr(self.folder / "b/x.hdr", 2)
+        done = self.render(0, "a/x.hdr", "a/../b/x.hdr", "-o", "shots/")
+        self.assertEqual(done.out.splitlines(), ["shots/a/x.hdr.png", "shots/a/__/b/x.hdr.png"])
+
+    def test_pages_of_a_contact_sheet(self):
+        self.make_output()
+        contact = ("out", "--scene", "contact", "--grid", "1x2")
+        self.assertEqual(self.render(0, *contact, "-o", "sheet-{page}.png").out,
+                         "sheet-001.png\nsheet-002.png\n")
+        self.assertEqual(self.render(0, *contact, "--page", "2", "-o", "two.png").out, "two.png\n")
+        self.assertEqual((self.folder / "two.png").read_bytes(), (self.folder / "sheet-002.png").read_bytes())
+        self.assertIn("2 pages", self.render(2, *contact, "--page", "3", "-o", "x.png").err)
+        self.assertIn("{page}", self.render(2, *contact, "-o", "x.png").err)
+
+    def test_meshes(self):
+        self.make_output()
+        for name, mark in (("a.glb", b"glTF"), ("a.gltf", b"{"), ("a.vtp", b"<")):
+            self.assertEqual(self.render(0, "out", "--panorama", "p00", "-o", name).out, name + "\n")
+            self.assertTrue((self.folder / name).read_bytes().startswith(mark), name)
+        self.render(0, "out", "--format", "glb", "-o", "meshes/")
+        self.assertEqual(len(list((self.folder / "meshes").glob("*.glb"))), 3)
+        self.assertIn("only the scene lobes", self.render(2, "out", "--scene", "basis", "-o", "b.glb").err)
+
+    def test_the_basis_needs_no_library(self):
+        self.assertEqual(self.render(0, "--scene", "basis", "--degree", "1", "-o", "b.png").out, "b.png\n")
+        self.assertIn("OUT is missing", self.render(2, "-o", "b.png").err)
+
+    def test_what_cannot_be_shown_is_told(self):
+        self.make_library(1)
+        self.write("lib/bad.hdr", "no picture")
+        done = self.render(0, "lib", "-o", "a.png")
+        self.assertRegex(done.err, r"^warning: bad is left out: lib/bad\.hdr: ")
+        done = self.render(1, "lib/bad.hdr", "-o", "b.png")
+        self.assertIn("all of them failed", done.err)
+
+
+class Messages(Commands):
+    def test_errors_are_kind(self):
+        self.make_output()
+        for status, arguments, *texts in (
+                (2, ("out", "--scene", "lobse", "-o", "a.png"), '"lobse"', 'did you mean "lobes"'),
+                (2, ("out", "--frame", "opnexr", "-o", "a.png"), "openexr"),
+                (2, ("out", "--quantity", "radance", "-o", "a.png"), "radiance"),
+                (2, ("out", "--panorama", "q*", "-o", "a.png"), '"q*"', "p00, p01, p02"),
+                (2, ("out", "--scene", "compare", "--with", "p*", "-o", "x/"), "3 panoramas", "p00"),
+                (2, ("out", "--grid", "0x4", "-o", "a.png"), "--grid 0x4"),
+                (2, ("out", "-o", "a.jpg"), "a.jpg", ".png"),
+                (2, ("out", "--format", "glb", "-o", "a.png"), "a.png", "--format"),
+                (1, ("nowhere", "-o", "a.png"), "nowhere", "run `shoal run MANIFEST` first"),
+                (1, ("lib/p00.hdr/", "-o", "a.png"), "p00.hdr"),
+                (1, ("out", "--panorama", "p00", "-o", "m.yaml/a.png"), "m.yaml")):
+            done = self.render(status, *arguments)
+            self.assertEqual(done.out, "")
+            self.assertRegex(done.err, r"^error: ")
+            self.assertEqual(len(done.err.splitlines()), 1, done)
+            for text in texts:
+                self.assertIn(text, done.err)
+
+    def test_size(self):
+        self.make_output()
+        for size in ("640", "640x", "x480", "0x0", "640x480x3", "100000x10"):
+            done = self.expect(2, "render", "out", "--size", size, "-o", "a.png")
+            self.assertIn(f"--size {size}", done.err)
+
+    def test_help_is_that_of_shoal(self):
+        for command in ("render", "report"):
+            done = self.expect(0, command, "--help")
+            self.assertIn(f"Usage: shoal {command} ", done.out)
+            self.assertNotIn("--way", done.out)
+
+
+class Reporting(Commands):
+    def test_a_page_beside_the_results(self):
+        self.make_output()
+        self.assertEqual(self.expect(0, "report", "out").out, "out/report/index.html\n")
+        self.assertTrue((self.folder / "out/report/index.html").is_file())
+
+    def test_a_page_of_some(self):
+        self.make_output()
+        done = self.expect(0, "report", "out", "--panorama", "p01", "-o", "page")
+        self.assertEqual(done.out, "page/index.html\n")
+        page = (self.folder / "page/index.html").read_text()
+        self.assertIn("p01", page)
+        self.assertNotIn("p02", page)
+        self.assertIn("p00", self.expect(2, "report", "out", "--panorama", "q").err)
+
+
+if __name__ == "__main__":
+    viz = pathlib.Path(support.BINARY or "/nonexistent").parent / "../../viz/app/shoal-viz"
+    if not os.access(viz, os.X_OK):
+        print("skipped: shoal-viz was not built")
+        raise SystemExit(support.SKIPPED)
+    unittest.main()

@@ -1,0 +1,204 @@
+#include "library/library.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "made_library.h"
+#include "output/coefficient_table.h"
+
+namespace shoal::viz {
+namespace {
+
+using test::LibraryTest;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::vector<std::string> names_of(const Library& library) {
+  std::vector<std::string> names;
+  for (const Panorama& panorama : library.panoramas) {
+    names.push_back(full_name(panorama));
+  }
+  return names;
+}
+
+// To a part of the largest coefficient.
+void expect_near(const Coefficients& actual, const Coefficients& expected, double part) {
+  ASSERT_EQ(actual.degree, expected.degree);
+  for (int c = 0; c < kChannelCount; ++c) {
+    for (std::size_t i = 0; i < expected.channels[c].size(); ++i) {
+      EXPECT_NEAR(actual.channels[c][i], expected.channels[c][i],
+                  part * std::abs(expected.channels[c][0]));
+    }
+  }
+}
+
+Library loaded(const std::vector<std::filesystem::path>& sources) {
+  auto library = load_library(sources);
+  EXPECT_TRUE(library) << library.error().text();
+  return library ? *library : Library();
+}
+
+TEST_F(LibraryTest, OfAStoreHasAllThatTheStoreKnows) {
+  const auto out = run_library("");
+  const Library library = loaded({out});
+  EXPECT_EQ(library.title, "out");
+  ASSERT_THAT(names_of(library), ElementsAre("c", "a", "b"));  // as in the table
+  const Panorama& b = library.panoramas[2];
+  EXPECT_EQ(b.file, std::filesystem::canonical(folder / "b.exr"));
+  ASSERT_TRUE(b.pixels);
+  EXPECT_EQ(b.pixels->format, "OpenEXR half ZIP");
+  EXPECT_EQ(b.pixels->width, 64);
+  EXPECT_EQ(b.pixels->height, 32);
+  EXPECT_EQ(b.pixels->pixel_count, 64 * 32);
+  EXPECT_GT(b.pixels->maximum[0], b.pixels->mean[0]);
+  ASSERT_EQ(library.failed.size(), 1U);
+  EXPECT_EQ(library.failed[0].name, "bad");
+  EXPECT_THAT(library.failed[0].error, HasSubstr("bad.hdr"));
+}
+
+// Numbers of a table read back as the same doubles, so the store's and the table's are one.
+TEST_F(LibraryTest, IsTheSameFromStoreTablesAndFiles) {
+  const auto out = run_library("tables: [csv, json]\n");
+  const Library stored = loaded({out});
+  for (const char* table : {"coefficients.csv", "coefficients.json"}) {
+    const Library told = loaded({out / table});
+    ASSERT_EQ(names_of(told), names_of(stored));
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(told.panoramas[i].coefficients, stored.panoramas[i].coefficients) << table;
+    }
+  }
+  const Library projected = loaded({folder / "c.hdr", folder / "a.hdr", folder / "b.exr"});
+  ASSERT_EQ(names_of(projected), names_of(stored));
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(projected.panoramas[i].coefficients, stored.panoramas[i].coefficients);
+  }
+}
+
+// The dark variant is told in another frame; in the native one again, it is a quarter of the light.
+TEST_F(LibraryTest, HasVariantsInTheNativeFrame) {
+  const auto out =
+      run_library("tables: json\nvariants: {plain: {}, dark: {exposure: -2, frame: openexr}}\n");
+  const Library library = loaded({out});
+  ASSERT_THAT(names_of(library), ElementsAre("c", "c.dark", "a", "a.dark", "b", "b.dark"));
+  for (std::size_t i = 0; i < 6; i += 2) {
+    Coefficients quarter = library.panoramas[i].coefficients;
+    for (auto& channel : quarter.channels) {
+      for (double& value : channel) value *= 0.25;
+    }
+    // Two rotations by signed permutations, of some roundings each.
+    expect_near(library.panoramas[i + 1].coefficients, quarter, 1e-13);
+    EXPECT_EQ(library.panoramas[i + 1].file, library.panoramas[i].file);
+  }
+}
+
+TEST_F(LibraryTest, GivesBackTheRadianceOfIrradiance) {
+  const auto out = run_library("tables: csv\nquantities: irradiance\n");
+  const Library stored = loaded({out / "shoal.db"});
+  const Library told = loaded({out / "coefficients.csv"});
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(told.panoramas[i].quantity, Quantity::irradiance);
+    expect_near(radiance_of(told.panoramas[i]), stored.panoramas[i].coefficients, 1e-15);
+  }
+}
+
+// Odd degrees above 1 are what the clamped cosine takes away.
+TEST(Radiance, LacksWhatTheCosineTookAway) {
+  Panorama panorama;
+  panorama.quantity = Quantity::irradiance_over_pi;
+  Coefficients radiance(4);
+  for (auto& channel : radiance.channels) channel.assign(channel.size(), 1.0);
+  panorama.coefficients = apply_quantity(radiance, panorama.quantity);
+  const Coefficients back = radiance_of(panorama);
+  for (int l = 0; l <= 4; ++l) {
+    for (int m = -l; m <= l; ++m) {
+      EXPECT_NEAR(back.channels[1][coefficient_index(l, m)], l == 3 ? 0.0 : 1.0, 1e-15);
+    }
+  }
+}
+
+TEST_F(LibraryTest, OfAFolderHasItsPanoramas) {
+  make_panoramas();
+  std::filesystem::create_directory(folder / "more");
+  std::filesystem::copy(folder / "a.hdr", folder / "more" / "a.hdr");
+  test::write_text(folder / "notes.txt", "no panorama");
+  LoadSettings settings;
+  settings.degree = 5;
+  const auto library = load_library({folder.path()}, settings);
+  ASSERT_TRUE(library) << library.error().text();
+  // Two files are called a: their paths tell them apart.
+  EXPECT_THAT(names_of(*library), ElementsAre((folder / "a.hdr").string(), "b", "c",
+                                              (folder / "more" / "a.hdr").string()));
+  EXPECT_EQ(library->panoramas[1].coefficients.degree, 5);
+  ASSERT_EQ(library->failed.size(), 1U);
+  EXPECT_EQ(library->failed[0].name, "bad");
+  EXPECT_THAT(library->failed[0].error, HasSubstr("bad.hdr: "));
+}
+
+TEST(FindPanoramas, GoesByNamesAndVariants) {
+  Library library;
+  for (const auto& [name, variant] :
+       {std::pair{"day/a[1]", ""}, {"day/b", ""}, {"day/b", "dark"}, {"night/c", ""}}) {
+    library.panoramas.emplace_back().name = name;
+    library.panoramas.back().variant = variant;
+  }
+  EXPECT_THAT(find_panoramas(library, "*"), ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(find_panoramas(library, "day/*"), ElementsAre(0, 1, 2));
+  EXPECT_THAT(find_panoramas(library, "*.dark"), ElementsAre(2));
+  // A full name is that panorama's alone: not a pattern, nor its variants' name.
+  EXPECT_THAT(find_panoramas(library, "day/a[1]"), ElementsAre(0));
+  EXPECT_THAT(find_panoramas(library, "day/b"), ElementsAre(1));
+  EXPECT_THAT(find_panoramas(library, "day/b.dark"), ElementsAre(2));
+  EXPECT_THAT(find_panoramas(library, "day/b*"), ElementsAre(1, 2));
+  EXPECT_THAT(find_panoramas(library, "?ight/[a-c]"), ElementsAre(3));
+  EXPECT_TRUE(find_panoramas(library, "b").empty());
+}
+
+// What is wrong, where, and what to do.
+class Refusal : public LibraryTest {
+ protected:
+  void expect(const std::filesystem::path& source, ErrorCode code, const std::string& text) {
+    const auto library = load_library({source});
+    ASSERT_FALSE(library) << source;
+    EXPECT_EQ(library.error().code, code) << library.error().text();
+    EXPECT_THAT(library.error().text(), HasSubstr(text));
+    EXPECT_THAT(library.error().text(), HasSubstr(source.filename().string()));
+  }
+};
+
+TEST_F(Refusal, OfWhatIsNotThere) {
+  expect(folder / "nowhere", ErrorCode::not_found, "shoal run");
+  std::filesystem::create_directory(folder / "empty");
+  expect(folder / "empty", ErrorCode::not_found, "run `shoal run MANIFEST` first");
+}
+
+TEST_F(Refusal, OfStores) {
+  test::write_text(folder / "cut.db", "SQLite format 3");
+  expect(folder / "cut.db", ErrorCode::malformed, "store");
+  const auto out = run_library("");
+  std::filesystem::resize_file(out / "shoal.db", 8192);
+  expect(out / "shoal.db", ErrorCode::malformed, "`shoal run` again");
+}
+
+TEST_F(Refusal, OfTables) {
+  const std::string head = R"({"schema": "shoal/coefficients", "version": 1, "records": [)";
+  const std::vector<std::pair<std::string, std::string>> tables = {
+      {"a.json", "{"},
+      {"b.json", "[1]"},
+      {"c.json", R"({"schema": 3})"},
+      {"d.json", head + R"({"panorama": "p", "quantity": "radiance", "frame": "native", )" +
+                     R"("degree": 1, "coefficients": [[1, 2, 3]]}]})"},
+      {"e.json", head + R"({"panorama": [], "quantity": "radiance"}]})"},
+      {"f.json", head + R"([]]})"},
+      {"g.csv", "panorama,quantity\n"}};
+  for (const auto& [name, text] : tables) {
+    test::write_text(folder / name, text);
+    expect(folder / name, ErrorCode::malformed, "edited");
+  }
+  test::write_text(folder / "t.npy", "\x93NUMPY");
+  expect(folder / "t.npy", ErrorCode::unsupported, "csv");
+}
+
+}  // namespace
+}  // namespace shoal::viz

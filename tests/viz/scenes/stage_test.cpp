@@ -1,0 +1,133 @@
+#include "scenes/stage.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scenes/legends.h"
+#include "window/offscreen.h"
+
+namespace shoal::viz {
+namespace {
+
+std::array<int, 3> pixel(const Picture& picture, double x, double y) {
+  const int column = static_cast<int>(x * picture.size.width);
+  const int row = static_cast<int>((1.0 - y) * picture.size.height);
+  const unsigned char* p = picture.rgb.data() + 3 * (row * picture.size.width + column);
+  return {p[0], p[1], p[2]};
+}
+
+TEST(Layout, CellsTileTheirAreaTheTopRowFirst) {
+  const Rectangle area{0.1, 0.2, 0.9, 0.8};
+  const Rectangle first = grid_cell(area, 4, 3, 0, 0);
+  const Rectangle last = grid_cell(area, 4, 3, 3, 2);
+  EXPECT_DOUBLE_EQ(first.left, 0.1);
+  EXPECT_DOUBLE_EQ(first.top, 0.8);
+  EXPECT_DOUBLE_EQ(last.right, 0.9);
+  EXPECT_NEAR(last.bottom, 0.2, 1e-15);
+  EXPECT_DOUBLE_EQ(grid_cell(area, 4, 3, 1, 1).left, grid_cell(area, 4, 3, 0, 1).right);
+}
+
+TEST(Ticks, AreRoundInsideAndAscending) {
+  for (const auto& [low, high] :
+       {std::pair(0.0, 1.0), {-3.0, 3.0}, {0.0012, 0.0019}, {-1e5, 7e5}, {17.0, 18.5}}) {
+    for (const int count : {2, 5, 7}) {
+      const auto ticks = ticks_between(low, high, count);
+      ASSERT_GE(ticks.size(), 2u);
+      EXPECT_LE(ticks.size(), static_cast<std::size_t>(count) + 2);
+      for (std::size_t i = 0; i < ticks.size(); ++i) {
+        EXPECT_GE(ticks[i].value, low - 1e-9 * (high - low));
+        EXPECT_LE(ticks[i].value, high + 1e-9 * (high - low));
+        if (i == 0) continue;
+        EXPECT_GT(ticks[i].value, ticks[i - 1].value);
+        EXPECT_NE(ticks[i].text, ticks[i - 1].text);
+      }
+    }
+  }
+  EXPECT_TRUE(ticks_between(1.0, 1.0, 5).empty());
+}
+
+TEST(Numbers, HaveThreeDigits) {
+  EXPECT_EQ(text_of(0.0), "0");
+  EXPECT_EQ(text_of(3.14159), "3.14");
+  EXPECT_EQ(text_of(-2.5), std::string(kMinus) + "2.5");
+  EXPECT_EQ(text_of(1234.5), "1234");
+  EXPECT_EQ(text_of(2.5e-6), "2.5e-06");
+}
+
+TEST(Stage, TypeGrowsWithTheWindowAndStaysLegible) {
+  auto window = make_offscreen_window({1280, 720});
+  if (!window) GTEST_SKIP() << window.error().text();
+  const Stage stage(**window);
+  EXPECT_EQ(stage.text_pixels(TextSize::small), 14);
+  EXPECT_EQ(stage.text_pixels(TextSize::title), 26);
+  (*window)->SetSize(320, 180);
+  EXPECT_EQ(Stage(**window).text_pixels(TextSize::small), 11);
+  (*window)->SetSize(1920, 1080);
+  EXPECT_EQ(Stage(**window).text_pixels(TextSize::small), 21);
+}
+
+TEST(Stage, TitleAndCaptionLeaveTheBodyFree) {
+  auto window = make_offscreen_window({1280, 720});
+  if (!window) GTEST_SKIP() << window.error().text();
+  Stage stage(**window);
+  const Rectangle before = stage.body();
+  stage.set_title("A title", "and what it is about");
+  stage.set_caption("a caption");
+  EXPECT_LT(stage.body().top, before.top - 0.03);
+  EXPECT_GT(stage.body().bottom, before.bottom + 0.02);
+  const Picture picture = take_picture(**window);
+  const std::array<int, 3> background = pixel(picture, 0.001, 0.5);
+  for (int row = 0; row < 720; ++row) {
+    const double y = 1.0 - (row + 0.5) / 720;
+    if (y >= stage.body().top || y <= stage.body().bottom) continue;
+    for (int column = 0; column < 1280; ++column) {
+      ASSERT_EQ(pixel(picture, (column + 0.5) / 1280, y), background) << column << ' ' << row;
+    }
+  }
+}
+
+// What is added later lies on top, and the flat picture of four colours stands as it was made.
+TEST(Stage, FlatThingsLieInTheirOrder) {
+  auto window = make_offscreen_window({200, 100});
+  if (!window) GTEST_SKIP() << window.error().text();
+  Stage stage(**window);
+  stage.add_box({0.1, 0.1, 0.5, 0.9}, {1.0f, 0.0f, 0.0f});
+  stage.add_box({0.3, 0.1, 0.5, 0.9}, {0.0f, 1.0f, 0.0f});
+  const Picture corners{{2, 2}, {255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255}};
+  stage.add_picture({0.6, 0.2, 0.9, 0.8}, corners);
+  const Picture picture = take_picture(**window);
+  EXPECT_EQ(pixel(picture, 0.2, 0.5), (std::array{255, 0, 0}));
+  EXPECT_EQ(pixel(picture, 0.4, 0.5), (std::array{0, 255, 0}));
+  EXPECT_EQ(pixel(picture, 0.62, 0.77), (std::array{255, 0, 0}));
+  EXPECT_EQ(pixel(picture, 0.88, 0.77), (std::array{0, 255, 0}));
+  EXPECT_EQ(pixel(picture, 0.62, 0.23), (std::array{0, 0, 255}));
+  EXPECT_EQ(pixel(picture, 0.88, 0.23), (std::array{255, 255, 255}));
+}
+
+TEST(Stage, ShortensWhatIsTooLong) {
+  auto window = make_offscreen_window({640, 360});
+  if (!window) GTEST_SKIP() << window.error().text();
+  Stage stage(**window);
+  EXPECT_GT(stage.text_width("wide words", TextSize::label), 0.05);
+  EXPECT_GT(stage.text_width("wide words", TextSize::title),
+            stage.text_width("wide words", TextSize::label));
+  stage.add_text(0.1, 0.5, std::string(300, 'w'), {.max_width = 0.3});
+  const Picture picture = take_picture(**window);
+  const std::array<int, 3> background = pixel(picture, 0.001, 0.1);
+  bool something = false;
+  for (int column = 0; column < 640; ++column) {
+    for (int row = 0; row < 360; ++row) {
+      const double x = (column + 0.5) / 640;
+      const bool drawn = pixel(picture, x, 1.0 - (row + 0.5) / 360) != background;
+      something |= drawn;
+      if (x < 0.099 || x > 0.41) {
+        ASSERT_FALSE(drawn) << column << ' ' << row;
+      }
+    }
+  }
+  EXPECT_TRUE(something);
+}
+
+}  // namespace
+}  // namespace shoal::viz

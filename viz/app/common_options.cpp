@@ -1,0 +1,139 @@
+#include "app/common_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <utility>
+
+#include "app/messages.h"
+
+namespace shoal::viz {
+namespace {
+
+constexpr std::size_t kMaxNamesTold = 8;
+constexpr int kMinSide = 64;
+constexpr int kMaxSide = 8192;
+constexpr int kMaxGrid = 50;
+constexpr double kMaxStops = 100.0;
+
+std::string names_in(const Library& library) {
+  std::string names;
+  const std::size_t count = std::min(library.panoramas.size(), kMaxNamesTold);
+  for (std::size_t i = 0; i < count; ++i) {
+    names += (i == 0 ? "" : ", ") + full_name(library.panoramas[i]);
+  }
+  if (library.panoramas.size() > count) {
+    names += fmt::format(" and {} more", library.panoramas.size() - count);
+  }
+  return names;
+}
+
+// "640x480", each within [low, high].
+Result<std::pair<int, int>> parse_pair(const std::string& option, const std::string& text, int low,
+                                       int high) {
+  std::pair<int, int> pair;
+  const char* end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, pair.first);
+  const bool has_x = first.ec == std::errc() && first.ptr != end && *first.ptr == 'x';
+  const auto second = has_x ? std::from_chars(first.ptr + 1, end, pair.second) : first;
+  const auto within = [&](int value) { return value >= low && value <= high; };
+  if (has_x && second.ec == std::errc() && second.ptr == end && within(pair.first) &&
+      within(pair.second)) {
+    return pair;
+  }
+  return Error{ErrorCode::usage,
+               fmt::format("{} {} is not two numbers from {} to {} with an x between", option, text,
+                           low, high),
+               "", ""};
+}
+
+Channel channel_of(const std::string& name) {
+  if (name == "red") return Channel::red;
+  if (name == "green") return Channel::green;
+  return name == "blue" ? Channel::blue : Channel::luminance;
+}
+
+std::string scene_names() {
+  std::string names;
+  for (const SceneKind kind : kAllScenes) {
+    names += (names.empty() ? "" : ", ") + std::string(name_of(kind));
+  }
+  return names;
+}
+
+}  // namespace
+
+void add_library_options(CLI::App& command, LibraryOptions& options, Sources sources) {
+  auto* out = command.add_option(
+      "OUT", options.sources,
+      "Output folder of `shoal run`; or a store, a table, panoramas or folders of them");
+  out->required(sources == Sources::needed);
+  command.add_option("--panorama", options.panorama,
+                     "Only panoramas with a name, or NAME.VARIANT, like this glob");
+  command
+      .add_option("--degree", options.degree,
+                  "Highest degree that is shown; of panoramas that are projected for it, 2 by "
+                  "default")
+      ->check(CLI::Range(0, kMaxDegree));
+}
+
+Result<Library> load(const LibraryOptions& options) {
+  LoadSettings settings;
+  settings.degree = options.degree;
+  const std::vector<std::filesystem::path> sources(options.sources.begin(), options.sources.end());
+  SHOAL_ASSIGN_OR_RETURN(library, load_library(sources, settings));
+  print_failed(library);
+  if (!library.panoramas.empty()) return library;
+  return Error{ErrorCode::not_found, "there is no panorama to look at", options.sources.front(),
+               library.failed.empty() ? "run `shoal run MANIFEST` first" : "all of them failed"};
+}
+
+Result<std::vector<std::size_t>> select(const Library& library, const std::string& pattern) {
+  std::vector<std::size_t> found = find_panoramas(library, pattern);
+  if (!found.empty()) return found;
+  return Error{ErrorCode::usage, fmt::format("no panorama is named like \"{}\"", pattern), "",
+               "there are " + names_in(library)};
+}
+
+void add_scene_options(CLI::App& command, SceneOptions& options) {
+  command.add_option("--scene", options.scene, scene_names() + "; lobes by default");
+  command.add_option("--frame", options.frame,
+                     "Frame whose axes are drawn: a name, or where the panorama's centre, right "
+                     "and up point, such as +z,-x,+y");
+  command.add_option("--quantity", options.quantity, "radiance, irradiance or irradiance-over-pi");
+  command.add_option("--channel", options.channel, "luminance, red, green or blue")
+      ->check(CLI::IsMember({"luminance", "red", "green", "blue"}));
+  command.add_option("--colour", options.colour, "Lobes in the colours of their sign or the light")
+      ->check(CLI::IsMember({"sign", "light"}));
+  command
+      .add_option("--exposure", options.exposure_stops, "Stops on top of the automatic exposure")
+      ->check(CLI::Range(-kMaxStops, kMaxStops));
+  command.add_option("--size", options.size, "Width and height in pixels, 1280x720 by default");
+  command.add_option("--grid", options.grid, "Columns and rows of a contact sheet, 5x4 by default");
+}
+
+Result<SceneChoice> understand(const SceneOptions& options, const std::optional<int>& degree) {
+  SceneChoice choice;
+  SHOAL_ASSIGN_OR_RETURN(scene, parse_scene(options.scene));
+  SHOAL_ASSIGN_OR_RETURN(quantity, parse_quantity(options.quantity));
+  SHOAL_ASSIGN_OR_RETURN(size, parse_pair("--size", options.size, kMinSide, kMaxSide));
+  SHOAL_ASSIGN_OR_RETURN(grid, parse_pair("--grid", options.grid, 1, kMaxGrid));
+  choice.scene = scene;
+  choice.size = {size.first, size.second};
+  SceneSettings& settings = choice.settings;
+  if (!options.frame.empty()) {
+    SHOAL_ASSIGN_OR_RETURN(frame, parse_frame(options.frame));
+    settings.frame = frame;
+  }
+  settings.degree = degree;
+  settings.quantity = quantity;
+  settings.channel = channel_of(options.channel);
+  settings.colour = options.colour == "light" ? LobeColour::light : LobeColour::sign;
+  settings.exposure_stops = options.exposure_stops;
+  settings.columns = grid.first;
+  settings.rows = grid.second;
+  return choice;
+}
+
+}  // namespace shoal::viz

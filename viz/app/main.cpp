@@ -1,0 +1,65 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/commands.h"
+#include "app/messages.h"
+#include "core/diagnostic.h"
+#include "core/version.h"
+
+namespace {
+
+constexpr const char* kFooter =
+    "Exit status: 0 all well; 1 something could not be read, drawn or written; 2 usage error,\n"
+    "nothing done.\n";
+
+// Tells a misspelt command with the one that was probably meant. False where the word is none.
+bool suggest_command(const CLI::App& app, std::string_view word) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  const std::vector<std::string_view> candidates(names.begin(), names.end());
+  if (word.starts_with("-") || std::ranges::find(names, word) != names.end()) return false;
+  const std::string_view near = shoal::closest_match(word, candidates);
+  fmt::print(stderr, "error: no command \"{}\"{}\n", word,
+             near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near));
+  return true;
+}
+
+int run(const shoal::viz::Action& action) {
+  try {
+    return action();
+  } catch (const std::exception& exception) {
+    return shoal::viz::report_error({shoal::ErrorCode::internal, exception.what(), "", ""});
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  // `shoal render` becomes this program and leaves its own name here.
+  const std::string name = std::filesystem::path(argc > 0 ? argv[0] : "").filename().string();
+  CLI::App app("Shows the spherical-harmonic lighting of libraries of panoramas.",
+               name.empty() ? "shoal-viz" : name);
+  app.set_version_flag("--version", fmt::format("shoal-viz {}", shoal::kVersion));
+  app.require_subcommand(1);
+  app.footer(kFooter);
+  shoal::viz::Action action;
+  shoal::viz::add_view_command(app, action);
+  shoal::viz::add_render_command(app, action);
+  shoal::viz::add_report_command(app, action);
+  shoal::viz::add_compare_command(app, action);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() != 0 && argc > 1 && suggest_command(app, argv[1])) {
+      return shoal::viz::kExitUsage;
+    }
+    return app.exit(error) == 0 ? shoal::viz::kExitOk : shoal::viz::kExitUsage;
+  }
+  return run(action);
+}

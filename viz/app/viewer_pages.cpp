@@ -1,0 +1,81 @@
+#include "app/viewer_pages.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <sstream>
+#include <vector>
+
+#include "app/viewer_state.h"
+
+namespace shoal::viz {
+namespace {
+
+constexpr double kLeading = 1.12;  // of lines of the card, in lines of type
+
+// As many words a line as have room.
+std::vector<std::string> wrapped(const std::string& text, TextSize size, double width,
+                                 const Stage& stage) {
+  std::vector<std::string> lines(1);
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    std::string& line = lines.back();
+    const std::string longer = line.empty() ? word : line + " " + word;
+    if (line.empty() || stage.text_width(longer, size) <= width) {
+      line = longer;
+    } else {
+      lines.push_back(word);
+    }
+  }
+  return lines;
+}
+
+}  // namespace
+
+Stage show_help(vtkRenderWindow& window) {
+  Stage sheet = Stage::over(window);
+  double key_width = 0.0;
+  double meaning_width = 0.0;
+  for (const KeyHelp& help : kKeyHelp) {
+    key_width = std::max(key_width, sheet.text_width(std::string(help.keys), TextSize::label));
+    meaning_width =
+        std::max(meaning_width, sheet.text_width(std::string(help.meaning), TextSize::label));
+  }
+  const double line = kLeading * sheet.line_height(TextSize::label);
+  const double side = line * sheet.height() / sheet.width();  // as wide as a line is high
+  const double half_width = std::min(0.49, 0.5 * (key_width + meaning_width) + 1.5 * side);
+  const double half_height = 0.5 * line * static_cast<double>(std::size(kKeyHelp) + 2);
+  const Rectangle card{0.5 - half_width, 0.5 - half_height, 0.5 + half_width, 0.5 + half_height};
+  sheet.add_box(card, theme::kPanel);
+  sheet.add_outline(card);
+  double y = card.top - 1.5 * line;
+  sheet.add_text(card.left + side, y, "Keys", {.size = TextSize::heading});
+  for (const KeyHelp& help : kKeyHelp) {
+    y -= line;
+    const double meaning = card.left + 2.0 * side + key_width;
+    sheet.add_text(card.left + side, y, std::string(help.keys), {.colour = theme::kAccent});
+    sheet.add_text(meaning, y, std::string(help.meaning),
+                   {.max_width = card.right - side - meaning});
+  }
+  return sheet;
+}
+
+void show_failure(const std::string& title, const std::string& subject, const Error& error,
+                  vtkRenderWindow& window) {
+  Stage stage(window);
+  stage.set_title(title, subject);
+  const Rectangle body = stage.body();
+  const double width = 0.7 * body.width();
+  const double line = stage.line_height(TextSize::heading);
+  double y = body.center_y() + 2.0 * line;
+  stage.add_text(body.center_x(), y, "this scene cannot be shown",
+                 {.size = TextSize::heading, .colour = theme::kAccent, .align = TextAlign::center});
+  y -= 0.4 * line;
+  for (const std::string& text : wrapped(error.text(), TextSize::label, width, stage)) {
+    y -= line;
+    stage.add_text(body.center_x(), y, text,
+                   {.align = TextAlign::center, .max_width = body.width()});
+  }
+}
+
+}  // namespace shoal::viz

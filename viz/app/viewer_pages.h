@@ -1,0 +1,20 @@
+// What the window of `shoal view` shows beside scenes: which keys there are, and why a scene fails.
+#pragma once
+
+#include <vtkRenderWindow.h>
+
+#include <string>
+
+#include "core/result.h"
+#include "scenes/stage.h"
+
+namespace shoal::viz {
+
+// A card with all keys over what the window shows; the sheet's take_away() removes it.
+[[nodiscard]] Stage show_help(vtkRenderWindow& window);
+
+// In place of a scene.
+void show_failure(const std::string& title, const std::string& subject, const Error& error,
+                  vtkRenderWindow& window);
+
+}  // namespace shoal::viz

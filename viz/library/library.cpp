@@ -1,0 +1,171 @@
+#include "library/library.h"
+
+#include <fnmatch.h>
+
+#include <array>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "library/panorama_files.h"
+#include "library/store_library.h"
+#include "library/table_library.h"
+
+namespace shoal::viz {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kSqliteMark = "SQLite format 3";  // every database begins with it
+
+Error nothing_there(const fs::path& source) {
+  return Error{ErrorCode::not_found, "there is no such file or folder", source.string(),
+               "run `shoal run MANIFEST` first, and name its output folder, or name panoramas"};
+}
+
+Error nothing_in(const fs::path& folder) {
+  return Error{ErrorCode::not_found, "holds neither a store nor a table nor panoramas",
+               folder.string(), "run `shoal run MANIFEST` first, and name its output folder"};
+}
+
+bool is_database(const fs::path& file) {
+  std::array<char, kSqliteMark.size()> bytes{};
+  std::ifstream(file, std::ios::binary).read(bytes.data(), bytes.size());
+  return std::string_view(bytes.data(), bytes.size()) == kSqliteMark;
+}
+
+bool is_there(const fs::path& path) {
+  std::error_code code;
+  return fs::exists(path, code);
+}
+
+void append(Library more, Library& library) {
+  std::ranges::move(more.panoramas, std::back_inserter(library.panoramas));
+  std::ranges::move(more.failed, std::back_inserter(library.failed));
+}
+
+Status add_table(const fs::path& table, Library& library) {
+  SHOAL_ASSIGN_OR_RETURN(records, read_table(table));
+  append({"", panoramas_of(std::move(records)), {}}, library);
+  return {};
+}
+
+// Sources one after another; panorama files that follow one another are projected together.
+class Loader {
+ public:
+  explicit Loader(const LoadSettings& settings) : settings_(settings) {}
+
+  Status add(const fs::path& source) {
+    std::error_code code;
+    if (!fs::exists(source, code)) return nothing_there(source);
+    if (fs::is_directory(source, code)) return add_folder(source);
+    if (is_database(source)) return add_store(source);
+    const auto extension = source.extension();
+    if (extension == ".csv" || extension == ".json" || extension == ".npy") {
+      SHOAL_RETURN_IF_ERROR(project_pending());
+      return add_table(source, library_);
+    }
+    pending_.push_back(source);
+    return {};
+  }
+
+  Result<Library> finish() {
+    SHOAL_RETURN_IF_ERROR(project_pending());
+    return std::move(library_);
+  }
+
+ private:
+  Status add_store(const fs::path& store) {
+    SHOAL_RETURN_IF_ERROR(project_pending());
+    SHOAL_ASSIGN_OR_RETURN(stored, load_store(store));
+    append(std::move(stored), library_);
+    return {};
+  }
+
+  Status add_folder(const fs::path& folder) {
+    if (is_there(folder / kStoreName)) return add_store(folder / kStoreName);
+    for (const char* name : {"coefficients.json", "coefficients.csv"}) {
+      if (!is_there(folder / name)) continue;
+      SHOAL_RETURN_IF_ERROR(project_pending());
+      return add_table(folder / name, library_);
+    }
+    SHOAL_ASSIGN_OR_RETURN(pictures, pictures_below(folder));
+    if (pictures.empty()) return nothing_in(folder);
+    pending_.insert(pending_.end(), pictures.begin(), pictures.end());
+    return {};
+  }
+
+  Status project_pending() {
+    if (pending_.empty()) return {};
+    SHOAL_ASSIGN_OR_RETURN(projected, project_files(std::exchange(pending_, {}), settings_));
+    append(std::move(projected), library_);
+    return {};
+  }
+
+  LoadSettings settings_;
+  Library library_;
+  std::vector<fs::path> pending_;
+};
+
+std::string title_of(const std::vector<fs::path>& sources) {
+  if (sources.size() != 1) return std::to_string(sources.size()) + " sources";
+  std::error_code code;
+  fs::path path = fs::absolute(sources.front(), code).lexically_normal();
+  if (!path.has_filename()) path = path.parent_path();  // "out/"
+  if (path.filename() == kStoreName) path = path.parent_path();
+  return path.filename().string();
+}
+
+bool matches(const std::string& pattern, const std::string& name) {
+  return ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+}
+
+template <typename Is>
+std::vector<std::size_t> indices_of(const Library& library, const Is& is) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < library.panoramas.size(); ++i) {
+    if (is(library.panoramas[i])) found.push_back(i);
+  }
+  return found;
+}
+
+}  // namespace
+
+Result<Library> load_library(const std::vector<fs::path>& sources, const LoadSettings& settings) {
+  Loader loader(settings);
+  for (const fs::path& source : sources) SHOAL_RETURN_IF_ERROR(loader.add(source));
+  SHOAL_ASSIGN_OR_RETURN(library, loader.finish());
+  library.title = title_of(sources);
+  return library;
+}
+
+std::string full_name(const Panorama& panorama) {
+  return panorama.variant.empty() ? panorama.name : panorama.name + "." + panorama.variant;
+}
+
+Coefficients radiance_of(const Panorama& panorama) {
+  Coefficients radiance = panorama.coefficients;
+  for (auto& channel : radiance.channels) {
+    for (int l = 0; l <= radiance.degree; ++l) {
+      const double gain = quantity_gain(panorama.quantity, l);
+      for (int m = -l; m <= l; ++m) {
+        double& value = channel[coefficient_index(l, m)];
+        value = gain == 0.0 ? 0.0 : value / gain;
+      }
+    }
+  }
+  return radiance;
+}
+
+std::vector<std::size_t> find_panoramas(const Library& library, const std::string& pattern) {
+  std::vector<std::size_t> exact =
+      indices_of(library, [&](const Panorama& panorama) { return full_name(panorama) == pattern; });
+  if (!exact.empty()) return exact;
+  return indices_of(library, [&](const Panorama& panorama) {
+    return matches(pattern, panorama.name) || matches(pattern, full_name(panorama));
+  });
+}
+
+}  // namespace shoal::viz

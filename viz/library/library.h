@@ -1,0 +1,78 @@
+// What there is to look at: panoramas with their coefficients, from a store, a table or files.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "sphere/coefficients.h"
+#include "sphere/frame.h"
+#include "sphere/irradiance.h"
+
+namespace shoal::viz {
+
+// What the store knows of the pixels.
+struct PixelFigures {
+  std::string format;  // "Radiance RGBE"
+  int width = 0;
+  int height = 0;
+  std::int64_t pixel_count = 0;
+  std::int64_t nonfinite_count = 0;
+  std::int64_t negative_count = 0;
+  std::int64_t clamped_count = 0;
+  std::array<double, 3> minimum{};
+  std::array<double, 3> maximum{};
+  std::array<double, 3> mean{};
+};
+
+struct Panorama {
+  std::string name;
+  std::string variant;         // empty: as it was projected
+  std::filesystem::path file;  // where its pixels are; empty where nobody says
+  Quantity quantity = Quantity::radiance;
+  Coefficients coefficients;  // of `quantity`, native frame, linear Rec.709
+  std::optional<PixelFigures> pixels;
+  std::vector<std::string> tags;
+  std::vector<std::string> warnings;
+};
+
+// A panorama that the store says failed.
+struct FailedPanorama {
+  std::string name;
+  std::string error;
+};
+
+struct Library {
+  std::string title;  // of a report: the folder's or the table's name
+  std::vector<Panorama> panoramas;
+  std::vector<FailedPanorama> failed;
+};
+
+struct LoadSettings {
+  std::optional<int> degree;  // of panoramas that are projected now; 2 where it is not given
+};
+
+// `source` is an output folder of `shoal run` (its shoal.db is read), a store, a CSV or JSON table,
+// a panorama, or a folder or several of panoramas; panoramas are projected by the program `shoal`,
+// which lies beside shoal-viz or in PATH. Panoramas come in the order of the table or of the names.
+// Errors: not_found, unreadable, malformed, unsupported, each with what to do next.
+[[nodiscard]] Result<Library> load_library(const std::vector<std::filesystem::path>& sources,
+                                           const LoadSettings& settings = {});
+
+// The radiance behind a panorama's coefficients. What the clamped cosine took away, odd degrees
+// above 1, stays away.
+[[nodiscard]] Coefficients radiance_of(const Panorama& panorama);
+
+// "NAME" or "NAME.VARIANT".
+[[nodiscard]] std::string full_name(const Panorama& panorama);
+
+// The indices of the panoramas whose name or full name matches the shell pattern, in their order; a
+// text that is somebody's full name stands for that one alone.
+[[nodiscard]] std::vector<std::size_t> find_panoramas(const Library& library,
+                                                      const std::string& pattern);
+
+}  // namespace shoal::viz

@@ -1,0 +1,167 @@
+#include "library/pixels.h"
+
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <fmt/format.h>
+#include <json/json.h>
+
+#include <algorithm>
+#include <exception>
+#include <memory>
+#include <sstream>
+#include <utility>
+
+#include "library/program.h"
+#include "library/temporary_folder.h"
+
+namespace shoal::viz {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxBytes = std::size_t{256} << 20;
+constexpr std::size_t kKeptEntries = 64;
+constexpr std::ptrdiff_t kReadAhead = 32;  // less than is kept
+
+Error no_picture(const fs::path& file, const std::string& why) {
+  return Error{ErrorCode::unreadable, why, file.string(), ""};
+}
+
+Result<Pixels> read_exr(const fs::path& path) {
+  try {
+    Imf::InputFile file(path.c_str(), 1);
+    const Imath::Box2i window = file.header().dataWindow();
+    Pixels pixels;
+    pixels.width = window.max.x - window.min.x + 1;
+    pixels.height = window.max.y - window.min.y + 1;
+    pixels.rgb.resize(std::size_t{3} * pixels.width * pixels.height);
+    Imf::FrameBuffer frame;
+    const std::size_t texel = 3 * sizeof(float);
+    for (int c = 0; c < 3; ++c) {
+      frame.insert(std::string(1, "RGB"[c]), Imf::Slice::Make(Imf::FLOAT, pixels.rgb.data() + c,
+                                                              window, texel, texel * pixels.width));
+    }
+    file.setFrameBuffer(frame);
+    file.readPixels(window.min.y, window.max.y);
+    return pixels;
+  } catch (const std::exception& exception) {
+    return no_picture(path, exception.what());
+  }
+}
+
+// What `shoal preview` says of one file: a line of JSON.
+Result<Pixels> take_line(const std::string& line, const fs::path& file) {
+  const std::unique_ptr<Json::CharReader> reader(Json::CharReaderBuilder().newCharReader());
+  Json::Value said;
+  std::string complaint;
+  if (!reader->parse(line.data(), line.data() + line.size(), &said, &complaint) ||
+      !said.isObject()) {
+    return no_picture(file, "`shoal preview` said nothing of it");
+  }
+  if (said.isMember("error")) return no_picture(file, said["error"].asString());
+  return read_exr(said["output"].asString());
+}
+
+void preview_batch(const fs::path& shoal, std::span<const std::string> files, int width,
+                   std::vector<Result<Pixels>>& previews) {
+  const auto fail_all = [&](const Error& error) {
+    for (std::size_t i = 0; i < files.size(); ++i) previews.emplace_back(error);
+  };
+  auto folder = TemporaryFolder::make();
+  if (!folder) return fail_all(folder.error());
+  std::vector<std::string> arguments{
+      "preview", "--width", std::to_string(width), "-o", folder->path().string(), "--"};
+  arguments.insert(arguments.end(), files.begin(), files.end());
+  auto finished = run_program(shoal, arguments);
+  if (!finished) return fail_all(finished.error());
+  std::istringstream lines(finished->out);
+  for (const std::string& file : files) {
+    std::string line;
+    std::getline(lines, line);
+    previews.push_back(take_line(line, file));
+  }
+}
+
+}  // namespace
+
+std::vector<Result<Pixels>> load_previews(const std::vector<fs::path>& files, int width) {
+  const auto shoal = find_shoal();
+  if (!shoal) return {files.size(), Result<Pixels>(shoal.error())};
+  std::vector<std::string> paths;
+  for (const fs::path& file : files) paths.push_back(file.string());
+  std::vector<Result<Pixels>> previews;
+  for (const Range& batch : command_line_batches(paths)) {
+    preview_batch(*shoal, std::span(paths).subspan(batch.begin, batch.end - batch.begin), width,
+                  previews);
+  }
+  return previews;
+}
+
+void PixelCache::expect(std::vector<std::size_t> panoramas) { expected_ = std::move(panoramas); }
+
+void PixelCache::prepare(std::span<const std::size_t> panoramas, int width) {
+  // Variants share their panorama's file.
+  std::map<fs::path, std::vector<std::size_t>> wanted;
+  for (const std::size_t panorama : panoramas) {
+    if (const auto known = entries_.find({panorama, width}); known != entries_.end()) {
+      known->second.last_use = ++use_count_;
+      continue;
+    }
+    const fs::path& file = library_.panoramas[panorama].file;
+    if (!file.empty()) {
+      wanted[file].push_back(panorama);
+      continue;
+    }
+    failures_[panorama] = "nobody says where its picture is";
+    keep(panorama, width, {});
+  }
+  if (wanted.empty()) return;
+  std::vector<fs::path> files;
+  for (const auto& [file, users] : wanted) files.push_back(file);
+  const std::vector<Result<Pixels>> previews = load_previews(files, width);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    for (const std::size_t panorama : wanted[files[i]]) {
+      if (!previews[i]) failures_[panorama] = previews[i].error().text();
+      keep(panorama, width, previews[i] ? *previews[i] : Pixels());
+    }
+  }
+  make_room(std::max(kKeptEntries, panoramas.size()));
+}
+
+const Pixels& PixelCache::get(std::size_t panorama, int width) {
+  if (!entries_.contains({panorama, width})) {
+    const auto expected = std::ranges::find(expected_, panorama);
+    const auto ahead = std::min<std::ptrdiff_t>(kReadAhead, expected_.end() - expected);
+    const std::vector<std::size_t> together(expected, expected + ahead);
+    prepare(together.empty() ? std::span(&panorama, 1) : std::span(together), width);
+  }
+  Entry& entry = entries_[{panorama, width}];
+  entry.last_use = ++use_count_;
+  return entry.pixels;
+}
+
+std::string PixelCache::why_empty(std::size_t panorama) const {
+  const auto failure = failures_.find(panorama);
+  return failure == failures_.end() ? "" : failure->second;
+}
+
+void PixelCache::keep(std::size_t panorama, int width, Pixels pixels) {
+  byte_count_ += pixels.rgb.size() * sizeof(float);
+  entries_[{panorama, width}] = {std::move(pixels), ++use_count_};
+}
+
+// Lets go of what was not asked for the longest, but not of the last `kept`.
+void PixelCache::make_room(std::size_t kept) {
+  if (byte_count_ <= kMaxBytes || entries_.size() <= kept) return;
+  std::vector<std::pair<std::int64_t, Key>> by_use;
+  for (const auto& [key, entry] : entries_) by_use.emplace_back(entry.last_use, key);
+  std::ranges::sort(by_use);
+  for (std::size_t i = 0; byte_count_ > kMaxBytes && i + kept < by_use.size(); ++i) {
+    const auto entry = entries_.find(by_use[i].second);
+    byte_count_ -= entry->second.pixels.rgb.size() * sizeof(float);
+    entries_.erase(entry);
+  }
+}
+
+}  // namespace shoal::viz

@@ -1,0 +1,223 @@
+#include "library/store_library.h"
+
+#include <sqlite3.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <functional>
+#include <memory>
+#include <sstream>
+#include <string_view>
+#include <system_error>
+#include <unordered_map>
+#include <utility>
+
+#include "library/table_library.h"
+
+namespace shoal::viz {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "the store's numbers are little-endian");
+
+// engine/batch/store_schema.h says what these are, and describes all tables.
+constexpr std::int64_t kApplicationId = 0x73686f6c;
+constexpr std::int64_t kVersion = 1;
+
+constexpr int kBusyTimeoutMs = 30'000;  // while a run writes
+
+constexpr const char* kSelectItems =
+    "SELECT name, status, error, input_path, format, width, height, pixel_count, nonfinite_count,"
+    " negative_count, clamped_count, minimum_r, minimum_g, minimum_b, maximum_r, maximum_g,"
+    " maximum_b, mean_r, mean_g, mean_b, warnings, degree, radiance"
+    " FROM items LEFT JOIN projections ON item = id ORDER BY name";
+
+using Database = std::unique_ptr<sqlite3, decltype(&sqlite3_close_v2)>;
+using Statement = std::unique_ptr<sqlite3_stmt, decltype(&sqlite3_finalize)>;
+
+// Columns of a statement's current row.
+class Row {
+ public:
+  explicit Row(sqlite3_stmt* statement) : statement_(statement) {}
+
+  [[nodiscard]] std::int64_t integer(int column) const {
+    return sqlite3_column_int64(statement_, column);
+  }
+  [[nodiscard]] std::array<double, 3> triple(int column) const {
+    return {sqlite3_column_double(statement_, column),
+            sqlite3_column_double(statement_, column + 1),
+            sqlite3_column_double(statement_, column + 2)};
+  }
+  [[nodiscard]] std::string text(int column) const {
+    const auto* bytes = reinterpret_cast<const char*>(sqlite3_column_text(statement_, column));
+    const auto size = static_cast<std::size_t>(sqlite3_column_bytes(statement_, column));
+    return bytes ? std::string(bytes, size) : std::string();
+  }
+  [[nodiscard]] std::string_view blob(int column) const {
+    const auto* bytes = static_cast<const char*>(sqlite3_column_blob(statement_, column));
+    return {bytes, static_cast<std::size_t>(sqlite3_column_bytes(statement_, column))};
+  }
+
+ private:
+  sqlite3_stmt* statement_;
+};
+
+Error unreadable(const std::filesystem::path& path, sqlite3* database, int code) {
+  const int primary = code & 0xff;
+  const bool damaged = primary == SQLITE_CORRUPT || primary == SQLITE_NOTADB;
+  const char* reason = database ? sqlite3_errmsg(database) : sqlite3_errstr(code);
+  return Error{damaged ? ErrorCode::malformed : ErrorCode::unreadable,
+               std::string("the store cannot be read: ") + reason, path.string(),
+               damaged ? "delete it and run `shoal run` again" : ""};
+}
+
+Status query(const std::filesystem::path& path, sqlite3* database, const char* sql,
+             const std::function<Status(const Row&)>& take) {
+  sqlite3_stmt* prepared = nullptr;
+  int code = sqlite3_prepare_v2(database, sql, -1, &prepared, nullptr);
+  const Statement statement(prepared, sqlite3_finalize);
+  while (code == SQLITE_OK || code == SQLITE_ROW) {
+    code = sqlite3_step(prepared);
+    if (code == SQLITE_ROW) SHOAL_RETURN_IF_ERROR(take(Row(prepared)));
+  }
+  return code == SQLITE_DONE ? Status() : Status(unreadable(path, database, code));
+}
+
+Status expect_pragma(const std::filesystem::path& path, sqlite3* database, const char* pragma,
+                     std::int64_t expected, const Error& error) {
+  return query(path, database, pragma, [&](const Row& row) {
+    return row.integer(0) == expected ? Status() : Status(error);
+  });
+}
+
+Result<Database> open_store(const std::filesystem::path& path) {
+  sqlite3* handle = nullptr;
+  // For writing, too: what a killed run began has to be taken back before anything can be read.
+  const int code = sqlite3_open_v2(path.c_str(), &handle, SQLITE_OPEN_READWRITE, nullptr);
+  Database database(handle, sqlite3_close_v2);
+  if (code != SQLITE_OK) return unreadable(path, handle, code);
+  sqlite3_busy_timeout(handle, kBusyTimeoutMs);
+  SHOAL_RETURN_IF_ERROR(expect_pragma(path, handle, "PRAGMA application_id", kApplicationId,
+                                      Error{ErrorCode::malformed, "is not a store of shoal",
+                                            path.string(), "`shoal run MANIFEST` makes one"}));
+  SHOAL_RETURN_IF_ERROR(expect_pragma(
+      path, handle, "PRAGMA user_version", kVersion,
+      Error{ErrorCode::unsupported, "the store is of another version of shoal", path.string(),
+            "use the shoal-viz that came with the shoal that wrote it"}));
+  return database;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+Result<Coefficients> radiance_from(const Row& row, const std::string& name) {
+  const std::int64_t degree = row.integer(21);
+  std::string_view blob = row.blob(22);
+  const bool known = degree >= 0 && degree <= kMaxDegree;
+  Coefficients coefficients(known ? static_cast<int>(degree) : 0);
+  const std::size_t size = coefficients.channels[0].size() * sizeof(double);
+  if (!known || blob.size() != kChannelCount * size) {
+    return Error{ErrorCode::malformed, "the store is damaged: the coefficients are cut off", name,
+                 "delete it and run `shoal run` again"};
+  }
+  for (auto& channel : coefficients.channels) {
+    std::memcpy(channel.data(), blob.data(), size);
+    blob.remove_prefix(size);
+  }
+  return coefficients;
+}
+
+PixelFigures figures_of(const Row& row) {
+  PixelFigures figures;
+  figures.format = row.text(4);
+  figures.width = static_cast<int>(row.integer(5));
+  figures.height = static_cast<int>(row.integer(6));
+  figures.pixel_count = row.integer(7);
+  figures.nonfinite_count = row.integer(8);
+  figures.negative_count = row.integer(9);
+  figures.clamped_count = row.integer(10);
+  figures.minimum = row.triple(11);
+  figures.maximum = row.triple(14);
+  figures.mean = row.triple(17);
+  return figures;
+}
+
+Status take_item(const Row& row, Library& library) {
+  const std::string name = row.text(0);
+  const std::string status = row.text(1);
+  if (status == "failed") {
+    library.failed.push_back({name, row.text(2)});
+    return {};
+  }
+  if (status != "done") {
+    library.failed.push_back({name, "its processing was broken off; `shoal run` goes on with it"});
+    return {};
+  }
+  Panorama panorama;
+  panorama.name = name;
+  panorama.file = row.text(3);
+  SHOAL_ASSIGN_OR_RETURN(radiance, radiance_from(row, name));
+  panorama.coefficients = std::move(radiance);
+  panorama.pixels = figures_of(row);
+  panorama.warnings = lines_of(row.text(20));
+  library.panoramas.push_back(std::move(panorama));
+  return {};
+}
+
+// JSON first: it tells the frames.
+Result<std::vector<CoefficientRecord>> table_beside(const std::filesystem::path& store) {
+  for (const char* name : {"coefficients.json", "coefficients.csv"}) {
+    const auto path = store.parent_path() / name;
+    std::error_code code;
+    if (std::filesystem::exists(path, code)) return read_table(path);
+  }
+  return std::vector<CoefficientRecord>();
+}
+
+// What the store says of a panorama holds for its variants, but for the coefficients.
+void add_variants(std::vector<Panorama> table, Library& library) {
+  std::unordered_map<std::string, std::size_t> stored;
+  for (std::size_t i = 0; i < library.panoramas.size(); ++i) {
+    stored.emplace(library.panoramas[i].name, i);
+  }
+  // (position in the table, panorama): each panorama stands before its variants.
+  constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> positions(library.panoramas.size(), kNowhere);
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const auto found = stored.find(table[i].name);
+    if (found == stored.end()) continue;
+    std::size_t& position = positions[found->second];
+    position = std::min(position, i);
+    if (table[i].variant.empty()) continue;
+    Panorama variant = library.panoramas[found->second];
+    variant.variant = table[i].variant;
+    variant.quantity = table[i].quantity;
+    variant.coefficients = std::move(table[i].coefficients);
+    library.panoramas.push_back(std::move(variant));
+    positions.push_back(i);
+  }
+  std::vector<std::size_t> order(positions.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return positions[i]; });
+  std::vector<Panorama> sorted;
+  for (const std::size_t i : order) sorted.push_back(std::move(library.panoramas[i]));
+  library.panoramas = std::move(sorted);
+}
+
+}  // namespace
+
+Result<Library> load_store(const std::filesystem::path& store) {
+  SHOAL_ASSIGN_OR_RETURN(database, open_store(store));
+  Library library;
+  SHOAL_RETURN_IF_ERROR(query(store, database.get(), kSelectItems,
+                              [&](const Row& row) { return take_item(row, library); }));
+  SHOAL_ASSIGN_OR_RETURN(records, table_beside(store));
+  add_variants(panoramas_of(std::move(records)), library);
+  return library;
+}
+
+}  // namespace shoal::viz

@@ -1,0 +1,103 @@
+#include "report/figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "sphere/irradiance.h"
+#include "sphere/legendre.h"
+
+namespace shoal::viz {
+namespace {
+
+constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
+
+std::vector<double> luminance_of(const Coefficients& coefficients) {
+  std::vector<double> luminance(coefficients.channels[0].size(), 0.0);
+  for (int c = 0; c < kChannelCount; ++c) {
+    for (std::size_t i = 0; i < luminance.size(); ++i) {
+      luminance[i] += kLuminance[c] * coefficients.channels[c][i];
+    }
+  }
+  return luminance;
+}
+
+// Calls take(value, weight) for every direction of the grid, weight the share of the sphere.
+template <typename Take>
+void for_each_direction(const std::vector<double>& channel, int degree, const Take& take) {
+  constexpr int kColumns = 2 * kFigureRows;
+  const AssociatedLegendre<double> legendre(degree);
+  std::vector<double> pbar(legendre_count(degree));
+  std::vector<double> cosine(degree + 1), sine(degree + 1);
+  for (int row = 0; row < kFigureRows; ++row) {
+    const double theta = std::numbers::pi * (row + 0.5) / kFigureRows;
+    const double top = std::numbers::pi * row / kFigureRows;
+    const double bottom = std::numbers::pi * (row + 1) / kFigureRows;
+    const double weight = (std::cos(top) - std::cos(bottom)) / (2.0 * kColumns);
+    legendre.evaluate(std::cos(theta), std::sin(theta), pbar);
+    for (int m = 0; m <= degree; ++m) {
+      cosine[m] = sine[m] = 0.0;
+      for (int l = m; l <= degree; ++l) {
+        cosine[m] += pbar[legendre_index(l, m)] * channel[coefficient_index(l, m)];
+        sine[m] += pbar[legendre_index(l, m)] * channel[coefficient_index(l, -m)];
+      }
+    }
+    for (int column = 0; column < kColumns; ++column) {
+      const double phi = 2.0 * std::numbers::pi * (column + 0.5) / kColumns;
+      double value = cosine[0];
+      for (int m = 1; m <= degree; ++m) {
+        value += cosine[m] * std::cos(m * phi) + sine[m] * std::sin(m * phi);
+      }
+      take(value, weight);
+    }
+  }
+}
+
+void add_irradiance_figures(const Coefficients& radiance, LightFigures& figures) {
+  const Coefficients irradiance = apply_quantity(radiance, Quantity::irradiance);
+  figures.minimum_irradiance = std::numeric_limits<double>::infinity();
+  figures.maximum_irradiance = -std::numeric_limits<double>::infinity();
+  for_each_direction(luminance_of(irradiance), irradiance.degree, [&](double value, double weight) {
+    figures.minimum_irradiance = std::min(figures.minimum_irradiance, value);
+    figures.maximum_irradiance = std::max(figures.maximum_irradiance, value);
+    if (value < 0.0) figures.negative_fraction += weight;
+  });
+  const double sum = figures.maximum_irradiance + figures.minimum_irradiance;
+  if (sum > 0.0) {
+    figures.contrast = (figures.maximum_irradiance - figures.minimum_irradiance) / sum;
+  }
+}
+
+}  // namespace
+
+LightFigures light_figures(const Coefficients& radiance) {
+  LightFigures figures;
+  for (int c = 0; c < kChannelCount; ++c) {
+    figures.mean[c] = radiance.channels[c][0] / std::sqrt(4.0 * std::numbers::pi);
+  }
+  figures.mean_luminance = glm::dot(kLuminance, figures.mean);
+  add_irradiance_figures(radiance, figures);
+  if (radiance.degree < 1) return figures;
+
+  const std::vector<double> luminance = luminance_of(radiance);
+  const glm::dvec3 vector(luminance[coefficient_index(1, 1)], luminance[coefficient_index(1, -1)],
+                          luminance[coefficient_index(1, 0)]);
+  const double length = glm::length(vector);
+  if (length > 0.0) figures.direction = vector / length;
+  if (luminance[0] > 0.0) figures.dominance = length / (std::numbers::sqrt3 * luminance[0]);
+  return figures;
+}
+
+double elevation_of(const glm::dvec3& native) {
+  return kDegreesPerRadian * std::asin(std::clamp(native.z, -1.0, 1.0));
+}
+
+// The picture's centre is -x, a quarter turn to its right -y (sphere/conventions.h).
+double azimuth_of(const glm::dvec3& native) {
+  return kDegreesPerRadian * std::atan2(-native.y, -native.x);
+}
+
+}  // namespace shoal::viz

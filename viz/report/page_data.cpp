@@ -1,0 +1,142 @@
+#include "report/page_data.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+
+#include "report/picture.h"
+#include "report/script_text.h"
+#include "sphere/irradiance.h"
+
+namespace shoal::viz {
+namespace {
+
+// Of the polynomials in irradiance_ball's order: Y_lm = factor * polynomial.
+constexpr std::array<double, 9> kPolynomialFactors = {
+    0.28209479177387814, 0.48860251190291992, 0.48860251190291992,
+    0.48860251190291992, 1.0925484305920792,  1.0925484305920792,
+    0.31539156525252005, 1.0925484305920792,  0.54627421529603959};
+
+std::string vector_text(const glm::dvec3& v) {
+  return short_numbers(std::array<double, 3>{v.x, v.y, v.z});
+}
+
+std::string optional_number(const std::optional<double>& value) {
+  return value ? short_number(*value) : "null";
+}
+
+std::string strings(const std::vector<std::string>& texts) {
+  std::string out = "[";
+  for (const std::string& text : texts) {
+    if (out.size() > 1) out += ',';
+    out += script_quoted(text);
+  }
+  return out + ']';
+}
+
+// Where the picture's centre, right and upper edge lie in the frame.
+std::string frame_data(const Frame& frame) {
+  const glm::dmat3 to_frame = native_to_frame(frame);
+  return fmt::format(R"({{"text":{},"center":{},"right":{},"up":{},"mirrors":{}}})",
+                     script_quoted(text_of(frame)), vector_text(to_frame * glm::dvec3(-1, 0, 0)),
+                     vector_text(to_frame * glm::dvec3(0, -1, 0)),
+                     vector_text(to_frame * glm::dvec3(0, 0, 1)), mirrors(frame));
+}
+
+std::string figures_data(const LightFigures& figures, const Frame& frame) {
+  std::string out = fmt::format(
+      R"({{"mean":{},"meanRgb":{},"minimum":{},"maximum":{},"negative":{},"contrast":{},)"
+      R"("dominance":{})",
+      short_number(figures.mean_luminance), vector_text(figures.mean),
+      short_number(figures.minimum_irradiance), short_number(figures.maximum_irradiance),
+      short_number(figures.negative_fraction), optional_number(figures.contrast),
+      optional_number(figures.dominance));
+  if (figures.direction) {
+    out += fmt::format(R"(,"direction":{},"elevation":{},"azimuth":{})",
+                       vector_text(native_to_frame(frame) * *figures.direction),
+                       short_number(elevation_of(*figures.direction)),
+                       short_number(azimuth_of(*figures.direction)));
+  }
+  return out + '}';
+}
+
+std::string pixels_data(const PixelFigures& pixels) {
+  return fmt::format(
+      R"({{"format":{},"width":{},"height":{},"count":{},"nonfinite":{},"negative":{},)"
+      R"("clamped":{},"minimum":{},"maximum":{},"mean":{}}})",
+      script_quoted(pixels.format), pixels.width, pixels.height, pixels.pixel_count,
+      pixels.nonfinite_count, pixels.negative_count, pixels.clamped_count,
+      short_numbers(pixels.minimum), short_numbers(pixels.maximum), short_numbers(pixels.mean));
+}
+
+std::string entry_data(const IndexEntry& entry, const Frame& frame) {
+  const Panorama& panorama = *entry.panorama;
+  return fmt::format(
+      R"({{"name":{},"variant":{},"file":{},"quantity":{},"degree":{},"tags":{},"warnings":{},)"
+      R"("thumbnail":{},"ball":{},"figures":{},"pixels":{}}})",
+      script_quoted(panorama.name), script_quoted(panorama.variant),
+      script_quoted(panorama.file.filename().string()), script_quoted(name_of(panorama.quantity)),
+      panorama.coefficients.degree, strings(panorama.tags), strings(panorama.warnings),
+      script_quoted(entry.thumbnail), entry.ball, figures_data(entry.figures, frame),
+      panorama.pixels ? pixels_data(*panorama.pixels) : "null");
+}
+
+// r g b of every coefficient as little-endian doubles, whatever the machine's order is.
+std::string coefficient_bytes(const Coefficients& coefficients) {
+  std::string bytes;
+  for (std::size_t i = 0; i < coefficients.channels[0].size(); ++i) {
+    for (const auto& channel : coefficients.channels) {
+      const auto bits = std::bit_cast<std::uint64_t>(channel[i]);
+      for (int shift = 0; shift < 64; shift += 8) bytes += static_cast<char>(bits >> shift & 255u);
+    }
+  }
+  return bytes;
+}
+
+}  // namespace
+
+std::string irradiance_ball(const Coefficients& radiance) {
+  const Coefficients light = apply_quantity(radiance, Quantity::irradiance_over_pi);
+  std::string out = "[";
+  for (std::size_t i = 0; i < kPolynomialFactors.size() && i < light.channels[0].size(); ++i) {
+    if (i > 0) out += ',';
+    glm::dvec3 factor(0.0);
+    for (int c = 0; c < 3; ++c) factor[c] = kPolynomialFactors[i] * light.channels[c][i];
+    out += vector_text(factor);
+  }
+  return out + ']';
+}
+
+std::string index_data(const Library& library, const std::vector<IndexEntry>& entries,
+                       const std::vector<FailedPanorama>& failed, const Frame& frame,
+                       const std::string& inlined) {
+  std::string out = fmt::format("{{\"title\":{},\"frame\":{},\n\"panoramas\":[",
+                                script_quoted(library.title), frame_data(frame));
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    out += i == 0 ? "\n" : ",\n";
+    out += entry_data(entries[i], frame);
+  }
+  out += "],\n\"failed\":[";
+  for (std::size_t i = 0; i < failed.size(); ++i) {
+    out += fmt::format("{}\n{{\"name\":{},\"error\":{}}}", i == 0 ? "" : ",",
+                       script_quoted(failed[i].name), script_quoted(failed[i].error));
+  }
+  return out + "],\n\"inline\":" + (inlined.empty() ? "null" : inlined) + "}\n";
+}
+
+std::string panorama_data(const Coefficients& radiance, const Frame& frame, const Pixels& pixels,
+                          const std::string& note) {
+  const Coefficients light = to_frame(radiance, frame);
+  std::string rgbe;
+  if (!pixels.empty()) rgbe = base64(compressed_planes(rgbe_planes(pixels), pixels.width));
+  return fmt::format(
+      "{{\"width\":{},\"height\":{},\"rgbe\":\"{}\",\"note\":{},\n\"native\":\"{}\",\n"
+      "\"radiance\":\"{}\",\n\"irradiance\":\"{}\"}}",
+      pixels.width, pixels.height, rgbe, script_quoted(note), base64(coefficient_bytes(radiance)),
+      exact_coefficients(light), exact_coefficients(apply_quantity(light, Quantity::irradiance)));
+}
+
+}  // namespace shoal::viz

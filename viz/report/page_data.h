@@ -1,0 +1,40 @@
+// A report's data as the page's scripts read them.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "library/library.h"
+#include "library/pixels.h"
+#include "report/figures.h"
+#include "sphere/frame.h"
+
+namespace shoal::viz {
+
+// One row of the page's table.
+struct IndexEntry {
+  const Panorama* panorama = nullptr;
+  LightFigures figures;
+  std::string thumbnail;  // a path beside the page or a data: URL; empty where there is none
+  std::string ball;       // what irradiance_ball gives
+};
+
+// Irradiance over pi to degree 2, native frame, as "[[r,g,b], ...]" of the polynomials' factors
+// 1, y, z, x, xy, yz, 3z^2-1, xz, x^2-y^2. As many as the degree has.
+[[nodiscard]] std::string irradiance_ball(const Coefficients& radiance);
+
+// {"title", "frame", "panoramas": [...], "failed": [...], "inline": null or what panorama_data
+// gives of the only panorama}. `inlined` may be empty.
+[[nodiscard]] std::string index_data(const Library& library, const std::vector<IndexEntry>& entries,
+                                     const std::vector<FailedPanorama>& failed, const Frame& frame,
+                                     const std::string& inlined);
+
+// Everything of one panorama that the table does not need: {"width", "height", "rgbe": base64 of
+// compressed_planes, "note", "native": base64 of the native frame's coefficients, little-endian
+// doubles, r g b of each, "radiance", "irradiance": exact_coefficients in the frame}. `pixels` may
+// be empty, then `note` says why.
+[[nodiscard]] std::string panorama_data(const Coefficients& radiance, const Frame& frame,
+                                        const Pixels& pixels, const std::string& note);
+
+}  // namespace shoal::viz

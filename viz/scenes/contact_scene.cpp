@@ -1,0 +1,169 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "scenes/actors.h"
+#include "scenes/axes.h"
+#include "scenes/ball_picture.h"
+#include "scenes/contact_card.h"
+#include "scenes/legends.h"
+#include "scenes/lobe.h"
+#include "scenes/pictures.h"
+#include "scenes/scene_parts.h"
+#include "scenes/shared_camera.h"
+#include "sphere/linear_operations.h"
+
+namespace shoal::viz {
+namespace {
+
+constexpr int kThumbnailWidth = 256;
+constexpr const char* kBetween = " · ";  // figures, on cards and in the caption
+constexpr int kLobeRings = 24;
+constexpr int kBallDegree = 4;  // beyond it the clamped cosine leaves a few thousandths
+
+double luminance_of(const Coefficients& radiance, int index) {
+  return channel_of(glm::dvec3(radiance.channels[0][index], radiance.channels[1][index],
+                               radiance.channels[2][index]),
+                    Channel::luminance);
+}
+
+// How far the light comes from one side: the length of degree 1 over what light from a single
+// direction would have, 0 to 1.
+double directedness(const Coefficients& radiance) {
+  const double all = luminance_of(radiance, 0);
+  if (radiance.degree < 1 || all <= 0.0) return 0.0;
+  const double length =
+      std::hypot(luminance_of(radiance, 1), luminance_of(radiance, 2), luminance_of(radiance, 3));
+  return std::min(1.0, length / (std::sqrt(3.0) * all));
+}
+
+double mean_luminance(const Coefficients& radiance) {
+  return luminance_of(radiance, 0) / std::sqrt(4.0 * std::numbers::pi);
+}
+
+void add_thumbnail(const SceneInput& input, std::size_t index, double exposure, Stage& stage,
+                   const Rectangle& place) {
+  const Pixels& pixels = input.pixels->get(index, kThumbnailWidth);
+  if (!pixels.empty()) {
+    stage.add_picture(place, tone_mapped_picture(pixels, exposure));
+    return;
+  }
+  stage.add_outline(place);
+  stage.add_text(place.center_x(), place.center_y() - 0.3 * stage.line_height(TextSize::small),
+                 "no pixels",
+                 {.size = TextSize::small,
+                  .colour = theme::kDimText,
+                  .align = TextAlign::center,
+                  .max_width = place.width()});
+}
+
+// Name and figures; in one line where there is no room for two.
+void add_words(const Panorama& panorama, const Coefficients& radiance, const ContactCard& card,
+               Stage& stage) {
+  const Rectangle& words = card.words;
+  const double line = stage.line_height(TextSize::small);
+  const std::string mean = text_of(mean_luminance(radiance));
+  TextStyle figures{.size = TextSize::small, .colour = theme::kDimText, .max_width = words.width()};
+  if (card.lines == 1) {
+    const double used = stage.text_width(mean + "  ", TextSize::small);
+    stage.add_text(words.left, words.top - 0.85 * line, title_of(panorama),
+                   {.size = TextSize::small, .max_width = words.width() - used});
+    figures.align = TextAlign::right;
+    stage.add_text(words.right, words.top - 0.85 * line, mean, figures);
+    return;
+  }
+  stage.add_text(words.left, words.top - 0.9 * line, title_of(panorama),
+                 {.size = TextSize::small, .max_width = words.width()});
+  const std::string directed = text_of(std::round(100.0 * directedness(radiance))) + " %";
+  stage.add_text(words.left, words.top - 1.9 * line, mean + kBetween + directed, figures);
+}
+
+void add_lobe(const SceneInput& input, const Panorama& panorama, SharedCamera& camera, Stage& stage,
+              const Rectangle& place) {
+  vtkRenderer& view = stage.add_view(place);
+  camera.look(view, input.settings.frame, 1.0);
+  const Lobe lobe = make_lobe(panorama, input.settings, kLobeRings);
+  add_small_axes(view, 1.0);
+  add_mesh(view, lobe.mesh, lobe.colours, Shading::lit);
+}
+
+void add_card(const SceneInput& input, std::size_t index, SharedCamera& camera, Stage& stage,
+              const Rectangle& cell) {
+  const Panorama& panorama = input.library->panoramas[index];
+  const Coefficients radiance = radiance_of(panorama);
+  const double exposure = automatic_exposure(radiance, input.settings.exposure_stops);
+  const ContactCard card = lay_out_card(stage, cell);
+  stage.add_panel(cell);
+  add_thumbnail(input, index, exposure, stage, card.thumbnail);
+  const int side = std::max(16, static_cast<int>(std::lround(card.ball.height() * stage.height())));
+  const Coefficients light =
+      apply_quantity(truncate(radiance, kBallDegree), Quantity::irradiance_over_pi);
+  stage.add_picture(card.ball,
+                    ball_picture(light, input.settings.frame, exposure, side, theme::kPanel));
+  add_lobe(input, panorama, camera, stage, card.lobe);
+  add_words(panorama, radiance, card, stage);
+}
+
+// The panoramas of the page. Error: usage, for one that does not exist.
+Result<std::vector<std::size_t>> panoramas_of_page(const Library& library,
+                                                   const SceneSettings& settings) {
+  const int pages = contact_page_count(library, settings);
+  if (settings.page < 0 || settings.page >= pages) {
+    return Error{ErrorCode::usage,
+                 "the contact sheet has no page " + std::to_string(settings.page + 1), "",
+                 "it has " + std::to_string(pages) + (pages == 1 ? " page" : " pages")};
+  }
+  const auto cells = static_cast<std::size_t>(settings.columns) * settings.rows;
+  std::vector<std::size_t> shown;
+  for (std::size_t i = cells * settings.page;
+       i < std::min(cells * (settings.page + 1), library.panoramas.size()); ++i) {
+    shown.push_back(i);
+  }
+  return shown;
+}
+
+std::string subject_of(const Library& library, const SceneSettings& settings) {
+  const std::size_t count = library.panoramas.size();
+  std::string subject = std::to_string(count) + (count == 1 ? " panorama" : " panoramas");
+  const int pages = contact_page_count(library, settings);
+  if (pages > 1) {
+    subject += ", page " + std::to_string(settings.page + 1) + " of " + std::to_string(pages);
+  }
+  return subject;
+}
+
+}  // namespace
+
+int contact_page_count(const Library& library, const SceneSettings& settings) {
+  const int cells = settings.columns * settings.rows;
+  return std::max(1, (static_cast<int>(library.panoramas.size()) + cells - 1) / cells);
+}
+
+Status show_contact_scene(const SceneInput& input, Stage& stage) {
+  const SceneSettings& settings = input.settings;
+  SHOAL_ASSIGN_OR_RETURN(shown, panoramas_of_page(*input.library, settings));
+  input.pixels->prepare(shown, kThumbnailWidth);
+
+  stage.set_title(input.library->title, subject_of(*input.library, settings));
+  const std::string lines[] = {"each at its own exposure: pixels, irradiance on a white ball, " +
+                                   describe(settings.quantity) + " lobes at a scale of their own",
+                               "mean luminance" + std::string(kBetween) +
+                                   "how far the light comes from one side; " +
+                                   describe(settings.frame)};
+  stage.set_caption(lines);
+  const double gap = 2.0 / 720.0;
+  const double gap_width = gap * stage.height() / stage.width();
+  const Rectangle area = inset(stage.body(), -gap_width, 0.0);  // outer cards end with the title
+  SharedCamera camera;
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    const auto place = static_cast<int>(i);
+    const Rectangle cell = grid_cell(area, settings.columns, settings.rows,
+                                     place % settings.columns, place / settings.columns);
+    add_card(input, shown[i], camera, stage, inset(cell, gap_width, gap));
+  }
+  return {};
+}
+
+}  // namespace shoal::viz

@@ -1,0 +1,187 @@
+#include <vtkCamera.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenes/actors.h"
+#include "scenes/axes.h"
+#include "scenes/legends.h"
+#include "scenes/scene_parts.h"
+#include "sphere/linear_operations.h"
+
+namespace shoal::viz {
+namespace {
+
+constexpr int kMostLobes = 11;
+
+// The sum over m of the channel's c_lm^2: what degree l has of the integral of f^2.
+std::vector<double> energies_of(const Coefficients& coefficients, Channel channel) {
+  std::vector<double> energies(coefficients.degree + 1, 0.0);
+  for (int l = 0; l <= coefficients.degree; ++l) {
+    for (int m = -l; m <= l; ++m) {
+      const int i = coefficient_index(l, m);
+      const double c = channel_of(
+          {coefficients.channels[0][i], coefficients.channels[1][i], coefficients.channels[2][i]},
+          channel);
+      energies[l] += c * c;
+    }
+  }
+  return energies;
+}
+
+// Degrees 0 to `degree`, thinned evenly where they are more than there is room for.
+std::vector<int> shown_degrees(int degree) {
+  const int count = std::min(degree + 1, kMostLobes);
+  std::vector<int> degrees;
+  for (int i = 0; i < count; ++i) {
+    degrees.push_back(count == 1 ? degree : (2 * i * degree + count - 1) / (2 * (count - 1)));
+  }
+  return degrees;
+}
+
+std::string percent(double part) {
+  char text[16];
+  std::snprintf(text, sizeof text, part >= 0.0995 || part == 0.0 ? "%.0f %%" : "%.2g %%",
+                100.0 * part);
+  return text;
+}
+
+struct PartialSum {
+  int degree;
+  std::vector<double> values;  // at the sphere's vertices
+  double largest;              // |value|; 1 where all are zero
+};
+
+std::vector<PartialSum> partial_sums(const Mesh& sphere, const Coefficients& whole,
+                                     Channel channel) {
+  std::vector<PartialSum> sums;
+  for (const int degree : shown_degrees(whole.degree)) {
+    sums.push_back({degree, channel_of(sample_on(sphere, truncate(whole, degree)), channel), 0.0});
+    for (const double value : sums.back().values) {
+      sums.back().largest = std::max(sums.back().largest, std::abs(value));
+    }
+    if (sums.back().largest == 0.0) sums.back().largest = 1.0;
+  }
+  return sums;
+}
+
+// A row of lobes under one camera; r = 1 is `unit`, or each one's own largest value.
+void add_lobe_row(const std::vector<PartialSum>& sums, const Mesh& sphere, const Frame& frame,
+                  std::optional<double> unit, Stage& stage, const Rectangle& area) {
+  vtkCamera* camera = nullptr;
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    const auto count = static_cast<int>(sums.size());
+    vtkRenderer& view = stage.add_view(grid_cell(area, count, 1, static_cast<int>(i), 0));
+    const Mesh lobe = lobe_mesh(sphere, sums[i].values, 1.0 / unit.value_or(sums[i].largest));
+    add_small_axes(view, 1.0);
+    add_mesh(view, lobe, sign_colours(lobe), Shading::lit);
+    if (camera == nullptr) aim_camera(view, frame, 1.08);
+    if (camera == nullptr) camera = view.GetActiveCamera();
+    view.SetActiveCamera(camera);
+  }
+}
+
+// Two rows of lobes: their shapes, and their sizes.
+void add_partial_sums(const SceneInput& input, const Coefficients& whole, Stage& stage,
+                      const Rectangle& area) {
+  const Mesh sphere = sphere_mesh(32);
+  const std::vector<PartialSum> sums = partial_sums(sphere, whole, input.settings.channel);
+  double largest = 0.0;
+  for (const PartialSum& sum : sums) largest = std::max(largest, sum.largest);
+
+  const double line = stage.line_height(TextSize::label);
+  const double row = 0.5 * (area.height() - line);
+  const Rectangle shapes{area.left, area.top - row, area.right, area.top};
+  const Rectangle sizes{area.left, area.bottom + line, area.right, area.bottom + line + row};
+  add_lobe_row(sums, sphere, input.settings.frame, std::nullopt, stage, shapes);
+  add_lobe_row(sums, sphere, input.settings.frame, largest, stage, sizes);
+  const TextStyle dim{.size = TextSize::small, .colour = theme::kDimText};
+  const double margin = stage.body().left;
+  stage.add_text(margin, shapes.center_y(), "shape,", dim);
+  stage.add_text(margin, shapes.center_y() - line, "each its own scale", dim);
+  stage.add_text(margin, sizes.center_y(), "size,", dim);
+  stage.add_text(margin, sizes.center_y() - line, "one scale", dim);
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    const Rectangle cell =
+        grid_cell(area, static_cast<int>(sums.size()), 1, static_cast<int>(i), 0);
+    stage.add_text(cell.center_x(), cell.bottom, "l \u2264 " + std::to_string(sums[i].degree),
+                   {.align = TextAlign::center, .max_width = cell.width()});
+  }
+}
+
+// Bars of energy over a logarithmic axis of whole decades, down to a millionth of all.
+void add_energy_bars(const std::vector<double>& energies, Stage& stage, const Rectangle& area) {
+  double total = 0.0;
+  double least = 1.0;
+  for (const double energy : energies) total += energy;
+  if (total == 0.0) total = 1.0;
+  for (const double energy : energies) {
+    if (energy > 0.0) least = std::min(least, energy / total);
+  }
+  const double decades = std::clamp(std::ceil(-std::log10(least) + 0.1), 1.0, 6.0);
+  const auto height_of = [&](double part) {
+    if (part <= 0.0) return area.bottom;
+    return area.bottom + area.height() * std::max(0.0, 1.0 + std::log10(part) / decades);
+  };
+  const double line = stage.line_height(TextSize::small);
+  for (int decade = 0; decade <= static_cast<int>(decades); ++decade) {
+    const double part = std::pow(10.0, -decade);
+    const double y = height_of(part);
+    stage.add_box({area.left, y, area.right, y + 1.0 / stage.height()}, theme::kLine);
+    stage.add_text(area.left - 0.006, y - 0.35 * line, percent(part),
+                   {.size = TextSize::small, .colour = theme::kDimText, .align = TextAlign::right});
+  }
+  const int count = static_cast<int>(energies.size());
+  const int label_step = 1 + (count - 1) / 24;
+  for (int l = 0; l < count; ++l) {
+    const Rectangle cell = grid_cell(area, count, 1, l, 0);
+    const double half = std::min(0.3 * cell.width(), 0.03);
+    const double top = height_of(energies[l] / total);
+    stage.add_box({cell.center_x() - half, area.bottom, cell.center_x() + half, top}, theme::kBar);
+    const std::string text = percent(energies[l] / total);
+    const double half_text = 0.55 * stage.text_width(text, TextSize::small);
+    if (2.0 * half_text <= cell.width()) {
+      stage.add_box({cell.center_x() - half_text, top + 0.1 * line, cell.center_x() + half_text,
+                     top + 1.1 * line},
+                    theme::kBackground);
+      stage.add_text(cell.center_x(), top + 0.2 * line, text,
+                     {.size = TextSize::small, .align = TextAlign::center});
+    }
+    if (l % label_step != 0) continue;
+    stage.add_text(cell.center_x(), area.bottom - 1.2 * line, std::to_string(l),
+                   {.size = TextSize::small, .align = TextAlign::center});
+  }
+}
+
+}  // namespace
+
+Status show_degrees_scene(const SceneInput& input, Stage& stage) {
+  const SceneSettings& settings = input.settings;
+  const Panorama& panorama = current_panorama(input);
+  const Coefficients whole = shown_coefficients(panorama, settings);
+  stage.set_title(title_of(panorama), describe(settings.quantity) + " built up degree by degree");
+  const LegendEntry entries[] = {{theme::kPositive, "f > 0"}, {theme::kNegative, "f < 0"}};
+  set_caption(stage,
+              std::string(name_of(settings.channel)) +
+                  ", lobes of the sum of all degrees up to l; " + describe(settings.frame),
+              entries);
+
+  Rectangle body = stage.body();
+  body.left += 0.115;  // the rows' and the axis' labels
+  const double line = stage.line_height(TextSize::label);
+  const double split = body.bottom + 0.42 * body.height();
+  add_partial_sums(input, whole, stage, {body.left, split, body.right, body.top});
+  const Rectangle chart{body.left, body.bottom + 2.6 * line, body.right, split - 3.2 * line};
+  stage.add_text(body.left, chart.top + 1.3 * line,
+                 "share of the energy (the integral of f squared) that each degree holds",
+                 {.max_width = body.width()});
+  add_energy_bars(energies_of(whole, settings.channel), stage, chart);
+  stage.add_text(chart.center_x(), body.bottom, "degree l",
+                 {.colour = theme::kDimText, .align = TextAlign::center});
+  return {};
+}
+
+}  // namespace shoal::viz

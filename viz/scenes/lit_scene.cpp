@@ -1,0 +1,204 @@
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "scenes/actors.h"
+#include "scenes/axes.h"
+#include "scenes/exhibits.h"
+#include "scenes/legends.h"
+#include "scenes/lighting.h"
+#include "scenes/scene_parts.h"
+#include "scenes/shared_camera.h"
+#include "sphere/linear_operations.h"
+
+namespace shoal::viz {
+namespace {
+
+constexpr int kReferenceWidth = 128;  // texels of the hemisphere integral: 128 x 64
+constexpr double kAlbedo = 0.8;
+constexpr double kSceneRadius = 1.32;
+
+using Light = std::vector<std::vector<glm::dvec3>>;  // irradiance a vertex of each mesh, RGB
+
+// The objects as the viewer sees them, in drawn coordinates: the bust behind, a ball and a torus
+// before it at either side.
+std::vector<Mesh> exhibits(const Frame& frame) {
+  const struct {
+    Mesh mesh;
+    float size;
+    glm::vec3 place;  // to the right, away, up
+  } things[] = {{sphere_mesh(44), 0.52f, {-0.66f, -0.35f, -0.72f}},
+                {torus_mesh(), 0.62f, {0.66f, -0.35f, -0.72f}},
+                {bust_mesh(), 1.0f, {0.0f, 0.3f, 0.42f}}};
+  const glm::vec3 up(native_to_frame(frame) * glm::dvec3(0.0, 0.0, 1.0));
+  const glm::vec3 right = glm::normalize(glm::cross(up, lit_side(frame)));
+  const glm::vec3 away = glm::cross(up, right);
+  const auto turned = [&](const glm::vec3& p) { return p.x * right + p.y * away + p.z * up; };
+  std::vector<Mesh> meshes;
+  for (const auto& thing : things) {
+    Mesh& mesh = meshes.emplace_back(thing.mesh);
+    for (glm::vec3& p : mesh.positions) p = turned(thing.size * p + thing.place);
+    for (glm::vec3& n : mesh.normals) n = turned(n);
+  }
+  return meshes;
+}
+
+double luminance(const glm::dvec3& light) { return channel_of(light, Channel::luminance); }
+
+struct Comparison {
+  Light form;
+  Light reference;       // empty without pixels
+  double mean = 0.0;     // luminance of the reference, over the ball's vertices
+  double rms = 0.0;      // of form - reference, likewise
+  double largest = 0.0;  // |form - reference| of all vertices
+};
+
+// The ball, the first mesh, has normals of all directions, spread evenly.
+void measure(Comparison& comparison) {
+  const auto count = static_cast<double>(comparison.form.front().size());
+  for (std::size_t mesh = 0; mesh < comparison.form.size(); ++mesh) {
+    for (std::size_t i = 0; i < comparison.form[mesh].size(); ++i) {
+      const double expected = luminance(comparison.reference[mesh][i]);
+      const double error = luminance(comparison.form[mesh][i]) - expected;
+      comparison.largest = std::max(comparison.largest, std::abs(error));
+      if (mesh > 0) continue;
+      comparison.mean += expected / count;
+      comparison.rms += error * error / count;
+    }
+  }
+  comparison.rms = std::sqrt(comparison.rms);
+}
+
+template <typename Source>
+Light light_on(const std::vector<Mesh>& meshes, const Source& source) {
+  Light light;
+  for (const Mesh& mesh : meshes) {
+    auto& values = light.emplace_back();
+    values.reserve(mesh.normals.size());
+    for (const glm::vec3& normal : mesh.normals) values.push_back(source.irradiance(normal));
+  }
+  return light;
+}
+
+// A variant's pixels would be those before it changed them.
+std::string why_no_reference(const SceneInput& input, const Pixels& pixels) {
+  if (!current_panorama(input).variant.empty()) return "a variant has no pixels of its own";
+  return pixels.empty() ? input.pixels->why_empty(input.current) : "";
+}
+
+using ColourOf = std::function<glm::vec3(std::size_t mesh, std::size_t vertex)>;
+
+void add_exhibits(const std::vector<Mesh>& meshes, const ColourOf& colour_of, const Frame& frame,
+                  SharedCamera& camera, Stage& stage, const Rectangle& area) {
+  vtkRenderer& view = stage.add_view(area);
+  camera.look(view, frame, kSceneRadius);
+  for (std::size_t mesh = 0; mesh < meshes.size(); ++mesh) {
+    std::vector<glm::vec3> colours;
+    for (std::size_t i = 0; i < meshes[mesh].positions.size(); ++i) {
+      colours.push_back(colour_of(mesh, i));
+    }
+    add_mesh(view, meshes[mesh], colours, Shading::unlit);
+  }
+}
+
+struct Column {
+  std::string title;
+  std::string subtitle;
+  ColourOf colour_of;
+};
+
+void add_columns(const std::vector<Column>& columns, const std::vector<Mesh>& meshes,
+                 const Frame& frame, Stage& stage, const Rectangle& area) {
+  const double line = stage.line_height(TextSize::label);
+  SharedCamera camera;  // one for all, so that they turn together
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const Rectangle cell =
+        grid_cell(area, static_cast<int>(columns.size()), 1, static_cast<int>(i), 0);
+    stage.add_text(cell.center_x(), cell.top - line, columns[i].title,
+                   {.size = TextSize::heading, .align = TextAlign::center});
+    stage.add_text(
+        cell.center_x(), cell.top - 2.1 * line, columns[i].subtitle,
+        {.colour = theme::kDimText, .align = TextAlign::center, .max_width = cell.width()});
+    add_exhibits(meshes, columns[i].colour_of, frame, camera, stage,
+                 {cell.left, cell.bottom, cell.right, cell.top - 2.5 * line});
+  }
+}
+
+ColourOf as_seen(const Light& light, double exposure) {
+  return [&light, exposure](std::size_t mesh, std::size_t i) {
+    return tone_mapped(kAlbedo / std::numbers::pi * light[mesh][i], exposure);
+  };
+}
+
+std::string percent(double share) { return text_of(100.0 * share) + " %"; }
+
+void show_alone(const std::vector<Mesh>& meshes, const Comparison& lit, double exposure,
+                const Frame& frame, Stage& stage) {
+  add_columns({{"nine coefficients", "quadratic form of the normal", as_seen(lit.form, exposure)}},
+              meshes, frame, stage, stage.body());
+}
+
+void show_beside_reference(const std::vector<Mesh>& meshes, const Comparison& lit, double exposure,
+                           const Frame& frame, Stage& stage) {
+  const double scale = lit.largest > 0.0 ? lit.largest : 1.0;
+  const auto error = [&lit, scale](std::size_t mesh, std::size_t i) {
+    return diverging_colour((luminance(lit.form[mesh][i]) - luminance(lit.reference[mesh][i])) /
+                            scale);
+  };
+  const Rectangle body = stage.body();
+  const double line = stage.line_height(TextSize::label);
+  const Rectangle views{body.left, body.bottom + 3.6 * line, body.right, body.top};
+  add_columns({{"nine coefficients", "quadratic form of the normal", as_seen(lit.form, exposure)},
+               {"reference", "integral over every texel", as_seen(lit.reference, exposure)},
+               {"difference", "nine coefficients minus reference", error}},
+              meshes, frame, stage, views);
+  const Rectangle last = grid_cell(views, 3, 1, 2, 0);
+  const double ends = lit.mean > 0.0 ? 100.0 * scale / lit.mean : 1.0;
+  add_colour_bar(
+      stage,
+      {last.left + 0.03, body.bottom + 1.5 * line, last.right - 0.03, body.bottom + 2.3 * line},
+      {-ends, ends, "luminance, % of the mean",
+       [](double fraction) { return diverging_colour(2.0 * fraction - 1.0); }});
+}
+
+}  // namespace
+
+Status show_lit_scene(const SceneInput& input, Stage& stage) {
+  const SceneSettings& settings = input.settings;
+  const Panorama& panorama = current_panorama(input);
+  const Coefficients radiance = radiance_of(panorama);
+  const double exposure = automatic_exposure(radiance, settings.exposure_stops);
+  const Pixels& pixels = input.pixels->get(input.current, kReferenceWidth);
+  const std::string missing = why_no_reference(input, pixels);
+  const std::vector<Mesh> meshes = exhibits(settings.frame);
+  Comparison lit;
+  lit.form = light_on(meshes, IrradianceForm(to_frame(radiance, settings.frame)));
+  if (missing.empty()) {
+    lit.reference = light_on(meshes, TexelLight(pixels, settings.frame));
+    measure(lit);
+  }
+
+  stage.set_title(title_of(panorama), "white things in its light");
+  const double mean = lit.mean > 0.0 ? lit.mean : 1.0;
+  const std::string figures =
+      missing.empty()
+          ? "over all normals the nine coefficients are off by " + percent(lit.rms / mean) +
+                " of the mean (RMS), at most by " + percent(lit.largest / mean)
+          : "no reference: " + missing;
+  const std::string lines[] = {
+      figures + "; irradiance on albedo 0.8, without shadows",
+      "one exposure, " + text_of(std::log2(exposure)) + " stops; " + describe(settings.frame)};
+  stage.set_caption(lines);
+  if (missing.empty()) {
+    show_beside_reference(meshes, lit, exposure, settings.frame, stage);
+  } else {
+    show_alone(meshes, lit, exposure, settings.frame, stage);
+  }
+  return {};
+}
+
+}  // namespace shoal::viz

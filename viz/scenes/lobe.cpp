@@ -1,0 +1,45 @@
+#include "scenes/lobe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scenes/actors.h"
+#include "scenes/scene_parts.h"
+
+namespace shoal::viz {
+namespace {
+
+double mean_of(const Coefficients& coefficients, Channel channel) {
+  const glm::dvec3 first(coefficients.channels[0][0], coefficients.channels[1][0],
+                         coefficients.channels[2][0]);
+  return channel_of(first, channel) * 0.5 / std::sqrt(std::numbers::pi);
+}
+
+}  // namespace
+
+Lobe make_lobe(const Panorama& panorama, const SceneSettings& settings, int rings) {
+  const Coefficients coefficients = shown_coefficients(panorama, settings);
+  const Mesh sphere = sphere_mesh(rings);
+  const std::vector<glm::dvec3> light = sample_on(sphere, coefficients);
+  const std::vector<double> values = channel_of(light, settings.channel);
+  const auto [smallest, largest] = std::minmax_element(values.begin(), values.end());
+
+  Lobe lobe;
+  lobe.degree = coefficients.degree;
+  lobe.mean = mean_of(coefficients, settings.channel);
+  lobe.smallest = *smallest;
+  lobe.largest = *largest;
+  lobe.largest_direction = sphere.positions[largest - values.begin()];
+  const double farthest = std::max(std::abs(*smallest), std::abs(*largest));
+  lobe.unit = farthest > 0.0 ? farthest : 1.0;
+  lobe.mesh = lobe_mesh(sphere, values, 1.0 / lobe.unit);
+  if (settings.colour == LobeColour::sign) {
+    lobe.colours = sign_colours(lobe.mesh);
+  } else {
+    for (const glm::dvec3& colour : light) lobe.colours.push_back(pure_colour(colour));
+  }
+  return lobe;
+}
+
+}  // namespace shoal::viz

@@ -1,0 +1,44 @@
+#include "scenes/scene_parts.h"
+
+#include "sphere/linear_operations.h"
+
+namespace shoal::viz {
+
+const Panorama& current_panorama(const SceneInput& input) {
+  return input.library->panoramas[input.current];
+}
+
+std::string title_of(const Panorama& panorama) {
+  return panorama.variant.empty() ? panorama.name : panorama.name + " (" + panorama.variant + ")";
+}
+
+std::string describe_pixels(const Panorama& panorama) {
+  return panorama.variant.empty() ? "its pixels" : "its pixels before the variant";
+}
+
+Coefficients shown_coefficients(const Panorama& panorama, const SceneSettings& settings) {
+  Coefficients coefficients = apply_quantity(radiance_of(panorama), settings.quantity);
+  if (settings.degree) coefficients = truncate(std::move(coefficients), *settings.degree);
+  return to_frame(coefficients, settings.frame);
+}
+
+std::string_view name_of(Channel channel) {
+  switch (channel) {
+    case Channel::red:
+      return "red";
+    case Channel::green:
+      return "green";
+    case Channel::blue:
+      return "blue";
+    case Channel::luminance:
+      break;
+  }
+  return "luminance";
+}
+
+std::string describe(Quantity quantity) {
+  return quantity == Quantity::irradiance_over_pi ? "irradiance / pi"
+                                                  : std::string(name_of(quantity));
+}
+
+}  // namespace shoal::viz
