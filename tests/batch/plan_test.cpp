@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "batch/library_folder.h"
@@ -239,11 +240,38 @@ TEST_F(PlanTest, OnlySelectsByNameAndByTag) {
 
 // A run from another folder finds what is up to date, though the manifest's paths are others then.
 TEST_F(PlanTest, InputsAreKnownByTheirAbsolutePaths) {
-  PanoramaEntry entry;
-  entry.file = "lib/../a.hdr";
-  EXPECT_EQ(stored_path(entry), (fs::current_path() / "a.hdr").string());
-  entry.file = "/library/a.hdr";
-  EXPECT_EQ(stored_path(entry), "/library/a.hdr");
+  const auto stored = [](const char* file) {
+    PanoramaEntry entry;
+    entry.file = file;
+    return stored_path(entry);
+  };
+  const std::string here = fs::current_path() / "";
+  for (const char* a : {"a.hdr", "./a.hdr", "lib/../a.hdr", ".//a.hdr"}) {
+    EXPECT_EQ(stored(a), here + "a.hdr") << a;
+  }
+  EXPECT_EQ(stored("lib/a.hdr"), here + "lib/a.hdr");
+  EXPECT_EQ(stored("..a/.b..hdr"), here + "..a/.b..hdr");
+  for (const char* a : {"/library/a.hdr", "/library/./a.hdr", "//library/b/..//a.hdr"}) {
+    EXPECT_EQ(fs::path(stored(a)), "/library/a.hdr") << a;
+  }
+}
+
+// The same panoramas in another folder are hashed once, to see that they are the same.
+TEST_F(PlanTest, ALibraryThatMovedIsUpToDate) {
+  write_three();
+  run(library());
+  fs::rename(folder_ / "lib", folder_ / "moved");
+  const std::string moved = "shoal: 1\noutput: out\npanoramas: [{files: \"moved/*.{hdr,exr}\"}]\n";
+  const auto news = [&] {
+    const Manifest manifest = manifest_of(moved);
+    Store store = open_store(manifest);
+    const auto plan = make_plan(manifest, &store, {});
+    EXPECT_EQ(plan->count(ItemWork::none), 3);
+    return std::ranges::count_if(plan->items, [](const auto& item) { return item.input_is_news; });
+  };
+  EXPECT_EQ(news(), 3);
+  run(moved);
+  EXPECT_EQ(news(), 0);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <thread>
 
 #include "batch/store_support.h"
@@ -66,6 +67,45 @@ TEST(Store, GivesBackEverythingThatWasRecorded) {
     EXPECT_FALSE(store->find_projection("broken")->has_value());
   }
   EXPECT_EQ(problems_of(path), "");
+}
+
+// A pass hands over what items() collects, with ids by which projections are found, and with what
+// is known of the items' files.
+TEST(Store, APassOverTheItemsTellsAllOfThem) {
+  const TemporaryFolder folder;
+  auto store = Store::open(folder / "s.db", Store::Access::write);
+  const std::map<std::string, Projection> projections = {{"a", some_projection(1, 2)},
+                                                         {"b", some_projection(2, 3)}};
+  for (const auto& [name, projection] : projections) {
+    ItemRecord item = some_item(name, &projection);
+    if (name == "b") item.input = InputState{7, 8, "content of b"};
+    ASSERT_TRUE(store->record(item).ok());
+  }
+  std::map<std::string, std::int64_t> ids;
+  ASSERT_TRUE(store->for_each_item([&](const ItemRow& row) {
+    ids[std::string(row.name)] = row.id;
+    EXPECT_EQ(row.parameters, "degree: 2");
+    EXPECT_EQ(row.input.has_value(), row.name == "b");
+    EXPECT_EQ(row.input ? row.input->content_hash : "", row.input ? "content of b" : "");
+  }));
+  std::map<std::int64_t, int> output_counts;
+  ASSERT_TRUE(
+      store->for_each_output([&](std::int64_t id, const OutputRecord&) { ++output_counts[id]; }));
+  EXPECT_EQ(output_counts, (std::map<std::int64_t, int>{{ids["a"], 2}, {ids["b"], 2}}));
+  ASSERT_TRUE(store->read_in_one([&]() -> Status {
+    for (const auto& [name, projection] : projections) {
+      SHOAL_ASSIGN_OR_RETURN(found, store->find_projection(ids[name]));
+      EXPECT_EQ(found->radiance, projection.radiance) << name;
+    }
+    return {};
+  }));
+  EXPECT_FALSE(store->find_projection(ids["b"] + 1)->has_value());
+  const Status failed = store->read_in_one([]() -> Status {
+    return Error{ErrorCode::usage, "as asked", "", ""};
+  });
+  EXPECT_EQ(failed.error().what, "as asked");
+  EXPECT_TRUE(store->record_input("/library/a.exr", {1, 2, "later"})) << "no lock is left behind";
+  EXPECT_EQ(store->find_input("/library/b.exr")->value().size, 7u);
 }
 
 // A picture without a single finite sample has no extremes.
