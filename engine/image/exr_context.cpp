@@ -148,9 +148,10 @@ class HeaderWalker {
 
 }  // namespace
 
-Result<std::shared_ptr<const ExrContext>> ExrContext::open(const std::filesystem::path& path) {
+Result<std::shared_ptr<const ExrContext>> ExrContext::open(
+    const std::filesystem::path& path, std::shared_ptr<ContentRecorder> recorder) {
   std::shared_ptr<ExrContext> context(new ExrContext);
-  SHOAL_ASSIGN_OR_RETURN(file, InputFile::open(path));
+  SHOAL_ASSIGN_OR_RETURN(file, InputFile::open(path, std::move(recorder)));
   context->file_ = std::move(file);
 
   exr_context_initializer_t settings = EXR_DEFAULT_CONTEXT_INITIALIZER;
@@ -175,8 +176,9 @@ void ExrContext::forget_messages() {
 }
 
 Error ExrContext::failure(exr_result_t result, const std::string& where) {
-  Error error{ErrorCode::malformed, messages.first, where,
-              "OpenEXR refuses it: the file is damaged, or was never whole; copy or write it again"};
+  Error error{
+      ErrorCode::malformed, messages.first, where,
+      "OpenEXR refuses it: the file is damaged, or was never whole; copy or write it again"};
   if (error.what.empty()) error.what = exr_get_default_error_message(result);
   // The library quotes names out of the file; what a terminal would obey stays out of messages.
   std::replace_if(

@@ -20,7 +20,8 @@ class ExrContext {
  public:
   // Parses the header, all of it, and finds the chunk tables.
   // Errors: not_found, unreadable, malformed.
-  static Result<std::shared_ptr<const ExrContext>> open(const std::filesystem::path& path);
+  static Result<std::shared_ptr<const ExrContext>> open(
+      const std::filesystem::path& path, std::shared_ptr<ContentRecorder> recorder = nullptr);
 
   ~ExrContext();
   ExrContext(const ExrContext&) = delete;

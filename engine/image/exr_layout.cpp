@@ -18,7 +18,7 @@ constexpr std::uint64_t kMaxBandBytes = std::uint64_t{1} << 26;  // of several c
 constexpr int kDefaultRowsOfLineChunks = 32;
 // Bands of files of larger zlib streams: several, because they are inflated faster together, but no
 // more bytes than this, of which every thread needs about two and a half times as many.
-constexpr std::uint64_t kBytesOfZlibChunks = 8 << 20;
+constexpr std::uint64_t kBytesOfZlibChunks = 4 << 20;
 
 template <typename T>
 constexpr T divide_up(T value, T by) {
@@ -152,7 +152,7 @@ int default_rows(const ExrPart& part, std::uint64_t chunk_bytes) {
       part.compression == EXR_COMPRESSION_ZIP || part.compression == EXR_COMPRESSION_PXR24;
   if (!is_zlib || part.storage != ExrStorage::scanlines) return part.chunk_rows;
   const auto chunks =
-      std::clamp<std::uint64_t>(kBytesOfZlibChunks / chunk_bytes, 2, ZlibInflater::kLanes);
+      std::clamp<std::uint64_t>(kBytesOfZlibChunks / chunk_bytes, 1, ZlibInflater::kLanes);
   return part.chunk_rows * static_cast<int>(chunks);
 }
 

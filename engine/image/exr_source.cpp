@@ -109,7 +109,7 @@ class ExrSource final : public PanoramaSource {
 Result<std::unique_ptr<PanoramaSource>> open_exr(const std::filesystem::path& path,
                                                  const ReadOptions& options,
                                                  const ChunkCodecs& codecs) {
-  SHOAL_ASSIGN_OR_RETURN(context, ExrContext::open(path));
+  SHOAL_ASSIGN_OR_RETURN(context, ExrContext::open(path, options.recorder));
   SHOAL_ASSIGN_OR_RETURN(parts, read_exr_parts(*context));
   SHOAL_ASSIGN_OR_RETURN(selection, select_exr_colour(parts, options, context->file().path()));
   const ExrPart& part = parts[selection.part];

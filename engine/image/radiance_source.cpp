@@ -88,7 +88,7 @@ class RadianceSource final : public PanoramaSource {
 Result<std::unique_ptr<PanoramaSource>> open_cut(const std::filesystem::path& path,
                                                  const ReadOptions& options,
                                                  const std::optional<RadianceCut>& asked) {
-  SHOAL_ASSIGN_OR_RETURN(file, InputFile::open(path));
+  SHOAL_ASSIGN_OR_RETURN(file, InputFile::open(path, options.recorder));
   SHOAL_ASSIGN_OR_RETURN(header, read_radiance_header(file));
   auto picture = std::make_shared<RadianceFile>();
   picture->sample_type =
