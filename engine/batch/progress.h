@@ -25,8 +25,8 @@
 #include <string_view>
 #include <vector>
 
-#include "batch/terminal.h"
 #include "core/result.h"
+#include "core/terminal.h"
 
 namespace shoal {
 

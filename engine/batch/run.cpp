@@ -283,6 +283,14 @@ std::vector<GlobExpansion> expansions_of(const Manifest& manifest) {
   return expansions;
 }
 
+std::vector<PanoramaTags> tags_of(const Manifest& manifest) {
+  std::vector<PanoramaTags> tags;
+  for (const PanoramaEntry& entry : manifest.entries) {
+    if (!entry.settings->tags.empty()) tags.push_back({entry.name, entry.settings->tags});
+  }
+  return tags;
+}
+
 // Files that were touched, but not changed: they need not be hashed again by the next run.
 Status remember_inputs(const Plan& plan, Store& store) {
   for (const PlannedItem& item : plan.items) {
@@ -292,17 +300,18 @@ Status remember_inputs(const Plan& plan, Store& store) {
   return {};
 }
 
-// All but the mark that a run is under way.
 std::vector<std::string> names_of(const Manifest& manifest) {
   std::vector<std::string> names;
   for (const PanoramaEntry& entry : manifest.entries) names.push_back(entry.name);
   return names;
 }
 
+// All but the mark that a run is under way.
 Result<RunSummary> run_marked(const Manifest& manifest, const Plan& plan, Store& store,
                               const RunSettings& settings, Progress& progress,
                               std::atomic<bool>& stop) {
   SHOAL_RETURN_IF_ERROR(store.set_globs(expansions_of(manifest)));
+  SHOAL_RETURN_IF_ERROR(store.set_tags(tags_of(manifest)));
   SHOAL_RETURN_IF_ERROR(remember_inputs(plan, store));
   RunSummary summary;
   summary.up_to_date_count = plan.count(ItemWork::none);

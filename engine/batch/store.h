@@ -119,6 +119,13 @@ struct GlobExpansion {
   friend bool operator==(const GlobExpansion&, const GlobExpansion&) = default;
 };
 
+// What a manifest says of a panorama for people and filters: nothing that is computed depends on
+// it.
+struct PanoramaTags {
+  std::string_view panorama;
+  std::span<const std::string> tags;
+};
+
 class Store {
  public:
   enum class Access {
@@ -171,6 +178,10 @@ class Store {
   // The globs of this run. Those that stand for the same files as before cost no writing.
   Status set_globs(std::span<const GlobExpansion> globs);
   Result<std::vector<GlobExpansion>> globs();
+
+  // The tags of this run's panoramas take the place of those before; the same ones cost no writing.
+  Status set_tags(std::span<const PanoramaTags> panoramas);
+  Result<std::vector<std::string>> tags_of(std::string_view panorama);
 
   // Short facts, such as a hash of what the tables were made from; empty where there is none.
   Status set_property(std::string_view name, std::string_view value);

@@ -9,7 +9,7 @@
 namespace shoal {
 
 inline constexpr std::int64_t kStoreApplicationId = 0x73686f6c;  // "shol"
-inline constexpr std::int64_t kStoreVersion = 1;
+inline constexpr std::int64_t kStoreVersion = 2;
 
 inline constexpr const char* kStoreSchema = R"sql(
 -- Facts about the last run, by name.
@@ -29,6 +29,14 @@ CREATE TABLE glob_files (
   position INTEGER NOT NULL,       -- from 0, in the order of the panoramas
   path     TEXT NOT NULL,
   PRIMARY KEY (glob, position)
+) WITHOUT ROWID;
+
+-- The words that the manifest of the last run gives its panoramas.
+CREATE TABLE tags (
+  panorama TEXT NOT NULL,          -- a name of items
+  position INTEGER NOT NULL,       -- from 0, in the manifest's order
+  tag      TEXT NOT NULL,
+  PRIMARY KEY (panorama, position)
 ) WITHOUT ROWID;
 
 -- Files read, as they were when last hashed: size and time stand for the hash while they match.

@@ -219,5 +219,24 @@ TEST(Store, GlobsAreThoseOfTheLastRun) {
   EXPECT_EQ(problems_of(folder / "s.db"), "");
 }
 
+TEST(Store, TagsAreThoseOfTheLastRun) {
+  const TemporaryFolder folder;
+  auto store = Store::open(folder / "s.db", Store::Access::write);
+  const std::vector<std::string> two = {"sun, noon", "out"};
+  const std::vector<std::string> one = {"in"};
+  // A panorama that is given a tag twice keeps both.
+  const std::vector<std::string> same = {"x", "x"};
+  const std::vector<PanoramaTags> before = {{"a", two}, {"b", {}}, {"c", same}};
+  ASSERT_TRUE(store->set_tags(before).ok());
+  ASSERT_TRUE(store->set_tags(before).ok());
+  EXPECT_EQ(*store->tags_of("a"), two);
+  EXPECT_TRUE(store->tags_of("b")->empty());
+  EXPECT_EQ(*store->tags_of("c"), same);
+  ASSERT_TRUE(store->set_tags(std::vector<PanoramaTags>{{"b", one}}).ok());
+  EXPECT_TRUE(store->tags_of("a")->empty());
+  EXPECT_EQ(*store->tags_of("b"), one);
+  EXPECT_EQ(problems_of(folder / "s.db"), "");
+}
+
 }  // namespace
 }  // namespace shoal

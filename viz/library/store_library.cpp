@@ -22,7 +22,7 @@ static_assert(std::endian::native == std::endian::little, "the store's numbers a
 
 // engine/batch/store_schema.h says what these are, and describes all tables.
 constexpr std::int64_t kApplicationId = 0x73686f6c;
-constexpr std::int64_t kVersion = 1;
+constexpr std::int64_t kVersion = 2;
 
 constexpr int kBusyTimeoutMs = 30'000;  // while a run writes
 
@@ -168,6 +168,14 @@ Status take_item(const Row& row, Library& library) {
   return {};
 }
 
+// The library's panoramas are in the order of their names, as the tags are.
+Status take_tag(const Row& row, Library& library) {
+  const std::string name = row.text(0);
+  const auto found = std::ranges::lower_bound(library.panoramas, name, {}, &Panorama::name);
+  if (found != library.panoramas.end() && found->name == name) found->tags.push_back(row.text(1));
+  return {};
+}
+
 // JSON first: it tells the frames.
 Result<std::vector<CoefficientRecord>> table_beside(const std::filesystem::path& store) {
   for (const char* name : {"coefficients.json", "coefficients.csv"}) {
@@ -215,6 +223,9 @@ Result<Library> load_store(const std::filesystem::path& store) {
   Library library;
   SHOAL_RETURN_IF_ERROR(query(store, database.get(), kSelectItems,
                               [&](const Row& row) { return take_item(row, library); }));
+  SHOAL_RETURN_IF_ERROR(query(store, database.get(),
+                              "SELECT panorama, tag FROM tags ORDER BY panorama, position",
+                              [&](const Row& row) { return take_tag(row, library); }));
   SHOAL_ASSIGN_OR_RETURN(records, table_beside(store));
   add_variants(panoramas_of(std::move(records)), library);
   return library;

@@ -93,6 +93,15 @@ TEST_F(LibraryTest, HasVariantsInTheNativeFrame) {
   }
 }
 
+TEST_F(LibraryTest, HasTheManifestsTags) {
+  const auto out = run_library("variants: {plain: {}, dark: {exposure: -2}}\n");
+  const Library library = loaded({out});
+  ASSERT_THAT(names_of(library), ElementsAre("c", "c.dark", "a", "a.dark", "b", "b.dark"));
+  EXPECT_THAT(library.panoramas[0].tags, ElementsAre("out", "sun"));
+  EXPECT_THAT(library.panoramas[1].tags, ElementsAre("out", "sun"));
+  EXPECT_TRUE(library.panoramas[2].tags.empty());
+}
+
 TEST_F(LibraryTest, GivesBackTheRadianceOfIrradiance) {
   const auto out = run_library("tables: csv\nquantities: irradiance\n");
   const Library stored = loaded({out / "shoal.db"});

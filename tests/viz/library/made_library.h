@@ -48,7 +48,7 @@ class LibraryTest : public testing::Test {
   std::filesystem::path run_library(const std::string& more) {
     make_panoramas();
     write_text(folder / "m.yaml",
-               "shoal: 1\noutput: out\npanoramas: [{file: c.hdr}, {file: a.hdr}, {file: b.exr}, "
+               "shoal: 1\noutput: out\npanoramas: [{file: c.hdr, tags: [out, sun]}, {file: a.hdr}, {file: b.exr}, "
                "{file: bad.hdr}]\n" +
                    more);
     const Finished finished = shoal({"run", (folder / "m.yaml").string()});
