@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -55,16 +56,11 @@ void add_commands(CLI::App& app, std::span<char* const> words, shoal::Action& ac
   }
 }
 
-// Tells a misspelt command with the one that was probably meant. False where the word is none.
-bool suggest_command(const CLI::App& app, std::string_view word) {
-  std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-  const std::vector<std::string_view> candidates(names.begin(), names.end());
-  if (word.starts_with("-") || std::ranges::find(names, word) != names.end()) return false;
-  const std::string_view near = shoal::closest_match(word, candidates);
-  fmt::print(stderr, "error: no command \"{}\"{}\n", word,
-             near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near));
-  return true;
+// A misspelt command; nothing where the word is one or an option.
+std::optional<shoal::Error> unknown_command(std::string_view word) {
+  std::vector<std::string_view> names;
+  for (const Command& command : kCommands) names.emplace_back(command.name);
+  return shoal::unknown_command(word, names);
 }
 
 // Runs the command; data that did not reach standard output is a failure, too.
@@ -97,8 +93,11 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() != 0 && argc > 1 && suggest_command(app, argv[1])) {
-      return shoal::kExitUsage;
+    if (error.get_exit_code() != 0 && argc > 1) {
+      if (const auto unknown = unknown_command(argv[1])) {
+        shoal::print_error(*unknown);
+        return shoal::kExitUsage;
+      }
     }
     return app.exit(error) == 0 ? shoal::kExitOk : shoal::kExitUsage;
   }

@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "batch/store.h"
-#include "batch/terminal.h"
+#include "core/terminal.h"
 
 namespace shoal {
 namespace {
@@ -14,16 +14,7 @@ namespace {
 // More than this many warnings would hide everything else; the store has them all.
 constexpr std::size_t kMaxWarnings = 20;
 
-const Terminal& terminal() {
-  static const Terminal kTerminal = terminal_of(STDERR_FILENO);
-  return kTerminal;
-}
-
 void print_line(std::string_view line) { fmt::print(stderr, "{}\n", line); }
-
-void print_labelled(Style style, std::string_view label, std::string_view text) {
-  print_line(fmt::format("{} {}", styled(terminal(), style, label), text));
-}
 
 std::string counted(std::int64_t count, std::string_view what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
@@ -31,18 +22,14 @@ std::string counted(std::int64_t count, std::string_view what) {
 
 }  // namespace
 
-void print_error(const Error& error) {
-  print_labelled(Style::red, "error:", printable(error.text()));
-}
+void print_error(const Error& error) { print_message(Style::red, "error:", error.text()); }
 
 void print_warnings(const std::vector<PanoramaNote>& warnings) {
   for (std::size_t i = 0; i < warnings.size() && i < kMaxWarnings; ++i) {
-    print_labelled(
-        Style::yellow, "warning:",
-        fmt::format("{}: {}", printable(warnings[i].panorama), printable(warnings[i].text)));
+    print_message(Style::yellow, "warning:", warnings[i].panorama + ": " + warnings[i].text);
   }
   if (warnings.size() > kMaxWarnings) {
-    print_labelled(
+    print_message(
         Style::yellow, "warning:",
         fmt::format("and {} more; the store has them all", warnings.size() - kMaxWarnings));
   }
@@ -50,13 +37,13 @@ void print_warnings(const std::vector<PanoramaNote>& warnings) {
 
 void print_failures(const std::vector<PanoramaNote>& failures) {
   for (const PanoramaNote& failure : failures) {
-    print_labelled(Style::red, "failed:", printable(failure.text));
+    print_message(Style::red, "failed:", failure.text);
   }
 }
 
 void print_summary(const RunSummary& summary, const Manifest& manifest) {
-  std::string line =
-      styled(terminal(), Style::bold, counted(summary.done_count, "panorama") + " done");
+  std::string line = styled(terminal_of(STDERR_FILENO), Style::bold,
+                            counted(summary.done_count, "panorama") + " done");
   if (summary.up_to_date_count > 0)
     line += fmt::format(", {} up to date", summary.up_to_date_count);
   if (!summary.failures.empty()) line += fmt::format(", {} failed", summary.failures.size());
@@ -80,6 +67,10 @@ void print_summary(const RunSummary& summary, const Manifest& manifest) {
   if (!manifest.maps.empty()) {
     print_line(fmt::format("  maps   {}/maps ({} written)", manifest.output.string(),
                            counted(summary.map_count, "file")));
+  }
+  if (!manifest.exports.empty()) {
+    print_line(fmt::format("  files  {}/exports ({} written)", manifest.output.string(),
+                           counted(summary.export_count, "file")));
   }
   print_line(fmt::format("  store  {}/{}", manifest.output.string(), kStoreFileName));
 }

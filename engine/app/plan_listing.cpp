@@ -4,7 +4,7 @@
 
 #include "app/commands.h"
 #include "app/messages.h"
-#include "batch/terminal.h"
+#include "core/terminal.h"
 
 namespace shoal {
 namespace {

@@ -6,8 +6,8 @@
 #include "app/interrupt.h"
 #include "app/messages.h"
 #include "batch/scheduler.h"
-#include "batch/terminal.h"
 #include "batch/verify.h"
+#include "core/terminal.h"
 
 namespace shoal {
 namespace {

@@ -84,4 +84,12 @@ std::string_view closest_match(std::string_view name,
   return best;
 }
 
+std::optional<Error> unknown_command(std::string_view word,
+                                     std::span<const std::string_view> commands) {
+  if (word.starts_with("-") || std::ranges::find(commands, word) != commands.end()) return {};
+  const std::string_view near = closest_match(word, commands);
+  return Error{ErrorCode::usage, "no command \"" + std::string(word) + '"', "",
+               near.empty() ? "--help lists them" : "did you mean \"" + std::string(near) + "\"?"};
+}
+
 }  // namespace shoal

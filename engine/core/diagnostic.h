@@ -1,11 +1,14 @@
-// Messages about a text that a person wrote: file:line:column, the line, a caret, a hint.
+// Messages about what a person wrote: file:line:column, the line, a caret, a hint.
 // The one place that lays them out, so that every error of a manifest looks the same.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "core/result.h"
 
 namespace shoal {
 
@@ -36,5 +39,10 @@ struct Diagnostic {
 // The candidate nearest to `name` by edit distance, if near enough to be what was meant, else "".
 [[nodiscard]] std::string_view closest_match(std::string_view name,
                                              std::span<const std::string_view> candidates);
+
+// What is wrong with a command line whose first word is `word`: there is no such command, with the
+// one that was probably meant. Nothing where the word is one of them, or an option.
+[[nodiscard]] std::optional<Error> unknown_command(std::string_view word,
+                                                   std::span<const std::string_view> commands);
 
 }  // namespace shoal

@@ -2,14 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "core/utf8.h"
+
 namespace shoal {
 namespace {
-
-unsigned byte_at(std::string_view text, std::size_t position) {
-  return position < text.size() ? static_cast<unsigned char>(text[position]) : 0u;
-}
-
-bool is_continuation(unsigned byte) { return (byte & 0xC0u) == 0x80u; }
 
 void append_json_control(std::string& out, char c) {
   switch (c) {
@@ -30,21 +26,7 @@ void append_json_control(std::string& out, char c) {
 }  // namespace
 
 std::size_t utf8_length_at(std::string_view text, std::size_t position) {
-  const unsigned first = byte_at(text, position);
-  const unsigned second = byte_at(text, position + 1);
-  if (first < 0x80u) return 1;
-  if (first < 0xC2u || first > 0xF4u || !is_continuation(second)) return 0;
-  if (first < 0xE0u) return 2;
-  if (!is_continuation(byte_at(text, position + 2))) return 0;
-  if (first < 0xF0u) {
-    const bool overlong = first == 0xE0u && second < 0xA0u;
-    const bool surrogate = first == 0xEDu && second > 0x9Fu;
-    return overlong || surrogate ? 0 : 3;
-  }
-  if (!is_continuation(byte_at(text, position + 3))) return 0;
-  const bool overlong = first == 0xF0u && second < 0x90u;
-  const bool too_large = first == 0xF4u && second > 0x8Fu;
-  return overlong || too_large ? 0 : 4;
+  return utf8_character_at(text, position).size();
 }
 
 bool is_utf8(std::string_view text) {

@@ -82,15 +82,15 @@ Error unknown_name(std::string_view text, std::string_view plain) {
                    : "did you mean " + quoted(near) + "?"};
 }
 
+SignedAxis opposite(const SignedAxis& axis) { return {axis.axis, -axis.sign}; }
+
+}  // namespace
+
 glm::dvec3 direction_of(const SignedAxis& axis) {
   glm::dvec3 direction(0.0);
   direction[axis.axis] = axis.sign;
   return direction;
 }
-
-SignedAxis opposite(const SignedAxis& axis) { return {axis.axis, -axis.sign}; }
-
-}  // namespace
 
 std::span<const FrameAlias> frame_aliases() { return kAliases; }
 

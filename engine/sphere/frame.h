@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,6 +19,9 @@ struct SignedAxis {
 
   friend bool operator==(const SignedAxis&, const SignedAxis&) = default;
 };
+
+// The unit vector along it.
+[[nodiscard]] glm::dvec3 direction_of(const SignedAxis& axis);
 
 // A frame is told by where the panorama's centre, the point a quarter turn to the right of it in
 // the picture, and its upper edge lie. The default is the native frame of sphere/conventions.h. The

@@ -1,15 +1,10 @@
 """Data to standard output, messages to standard error, colours to nobody who cannot show them."""
 
 import json
-import os
-import pty
-import re
 import time
 
 import support
-from support import ShoalTest, plain_environment, start, write_constant_hdr
-
-ESCAPE = "\x1b"
+from support import ESCAPE, STYLE, ShoalTest, start, write_constant_hdr
 
 
 class Streams(ShoalTest):
@@ -77,31 +72,16 @@ class Colours(ShoalTest):
 
     def on_terminal(self, **environment):
         """What a run with a failure says on a terminal."""
-        master, slave = pty.openpty()
-        process = support.subprocess.Popen(
-            [support.BINARY, "run", "m.yaml"], cwd=self.folder, stdin=support.subprocess.DEVNULL,
-            stdout=slave, stderr=slave, env=plain_environment(**{"TERM": "xterm-256color", **environment}))
-        os.close(slave)
-        text = b""
-        while True:
-            try:
-                piece = os.read(master, 4096)
-            except OSError:  # the other end is closed
-                break
-            if not piece:
-                break
-            text += piece
-        os.close(master)
-        self.assertEqual(process.wait(60), 1)
-        return text.decode()
+        done = self.shoal_on_terminal("run", "m.yaml", **environment)
+        self.assertEqual(done.status, 1)
+        return done.out
 
     def test_on_a_terminal_unless_no_color(self):
         self.make_library()
         self.write("lib/bad.hdr", "no picture")
-        styles = re.compile(re.escape(ESCAPE) + r"\[[0-9;]*m")
-        self.assertRegex(self.on_terminal(), styles)
-        self.assertNotRegex(self.on_terminal(NO_COLOR="1"), styles)
-        self.assertNotRegex(self.on_terminal(TERM="dumb"), styles)
+        self.assertRegex(self.on_terminal(), STYLE)
+        self.assertNotRegex(self.on_terminal(NO_COLOR="1"), STYLE)
+        self.assertNotRegex(self.on_terminal(TERM="dumb"), STYLE)
 
 
 class Progress(ShoalTest):

@@ -3,7 +3,9 @@
 import hashlib
 import os
 import pathlib
+import pty
 import random
+import re
 import shutil
 import struct
 import subprocess
@@ -15,6 +17,9 @@ import zlib
 SKIPPED = 77  # as ctest is told in SKIP_RETURN_CODE
 BINARY = os.environ.get("SHOAL_BINARY", "")
 DATA = pathlib.Path(os.environ.get("SHOAL_TEST_DATA", "") or "/nonexistent")
+
+ESCAPE = "\x1b"
+STYLE = re.compile(re.escape(ESCAPE) + r"\[[0-9;]*m")  # of letters on a terminal
 
 TEMPORARY_MARK = ".shoal-tmp-"
 STORE = "shoal.db"
@@ -150,6 +155,25 @@ class ShoalTest(unittest.TestCase):
     def shoal(self, *arguments, **more):
         more.setdefault("cwd", self.folder)
         return shoal(*arguments, **more)
+
+    def shoal_on_terminal(self, *arguments, **environment):
+        """Runs the program on a terminal: all that it says is in `out`."""
+        master, slave = pty.openpty()
+        process = subprocess.Popen(
+            [BINARY, *arguments], cwd=self.folder, stdin=subprocess.DEVNULL, stdout=slave, stderr=slave,
+            env=plain_environment(**{"TERM": "xterm-256color", **environment}))
+        os.close(slave)
+        text = b""
+        while True:
+            try:
+                piece = os.read(master, 4096)
+            except OSError:  # the other end is closed
+                break
+            if not piece:
+                break
+            text += piece
+        os.close(master)
+        return Done(process.wait(60), text.decode(), "")
 
     def expect(self, status, *arguments, **more):
         """Runs the program, which must end with this status."""

@@ -53,5 +53,16 @@ TEST(ClosestMatch, FindsTyposAndNothingFarAway) {
   EXPECT_EQ(closest_match("panoramas", keys), "");
 }
 
+TEST(UnknownCommand, NamesTheOneThatWasMeant) {
+  constexpr std::array<std::string_view, 3> commands = {"run", "render", "report"};
+  EXPECT_EQ(unknown_command("rednr", commands)->text(),
+            "no command \"rednr\" (did you mean \"render\"?)");
+  EXPECT_EQ(unknown_command("panoramas", commands)->text(),
+            "no command \"panoramas\" (--help lists them)");
+  EXPECT_EQ(unknown_command("rnu", commands)->code, ErrorCode::usage);
+  EXPECT_FALSE(unknown_command("run", commands));
+  EXPECT_FALSE(unknown_command("--rnu", commands));
+}
+
 }  // namespace
 }  // namespace shoal

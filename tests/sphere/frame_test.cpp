@@ -71,14 +71,23 @@ TEST(Frame, AliasesFollowTheTableOfPanoramaFrames) {
   for (const auto& [name, axes] : rows) EXPECT_EQ(text_of(*parse_frame(name)), axes) << name;
 }
 
+TEST(Frame, HalfAxesAreUnitVectors) {
+  EXPECT_EQ(direction_of({0, 1}), glm::dvec3(1, 0, 0));
+  EXPECT_EQ(direction_of({1, -1}), glm::dvec3(0, -1, 0));
+  EXPECT_EQ(direction_of({2, 1}), glm::dvec3(0, 0, 1));
+  for (const FrameAlias& alias : frame_aliases()) {
+    const auto& [center, right, up] = alias.frame;
+    const glm::dmat3 axes(direction_of(center), direction_of(right), direction_of(up));
+    EXPECT_EQ(glm::transpose(axes) * axes, glm::dmat3(1.0)) << alias.name;
+  }
+}
+
 // The tools' formulas put the picture's three points where the frame says.
 TEST(Frame, CentreRightAndUpAreWhereTheFrameSays) {
   for (const FrameAlias& alias : frame_aliases()) {
     const glm::dmat3 matrix = native_to_frame(alias.frame);
     const auto expect_at = [&](const SignedAxis& axis, const glm::dvec3& native_direction) {
-      glm::dvec3 expected(0.0);
-      expected[axis.axis] = axis.sign;
-      EXPECT_LT(glm::length(matrix * native_direction - expected), 1e-15) << alias.name;
+      EXPECT_LT(glm::distance(matrix * native_direction, direction_of(axis)), 1e-15) << alias.name;
     };
     expect_at(alias.frame.center, native(kPi / 2, kPi));
     expect_at(alias.frame.right, native(kPi / 2, 1.5 * kPi));

@@ -96,6 +96,12 @@ Result<std::vector<std::size_t>> select(const Library& library, const std::strin
                "there are " + names_in(library)};
 }
 
+Result<Library> load_selected(const LibraryOptions& options) {
+  SHOAL_ASSIGN_OR_RETURN(library, load(options));
+  SHOAL_ASSIGN_OR_RETURN(selected, select(library, options.panorama));
+  return part_of(library, selected);
+}
+
 void add_scene_options(CLI::App& command, SceneOptions& options) {
   command.add_option("--scene", options.scene, scene_names() + "; lobes by default");
   command.add_option("--frame", options.frame,
@@ -111,6 +117,17 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
       ->check(CLI::Range(-kMaxStops, kMaxStops));
   command.add_option("--size", options.size, "Width and height in pixels, 1280x720 by default");
   command.add_option("--grid", options.grid, "Columns and rows of a contact sheet, 5x4 by default");
+  command.add_option("--with", options.with,
+                     "compare: the panorama or NAME.VARIANT to compare with");
+}
+
+Result<std::optional<std::size_t>> select_other(const Library& library, const std::string& with) {
+  if (with.empty()) return std::optional<std::size_t>();
+  SHOAL_ASSIGN_OR_RETURN(found, select(library, with));
+  if (found.size() == 1) return std::optional<std::size_t>(found.front());
+  return Error{ErrorCode::usage, fmt::format("--with {} names {} panoramas", with, found.size()),
+               "",
+               fmt::format("name one, such as {}", full_name(library.panoramas[found.front()]))};
 }
 
 Result<SceneChoice> understand(const SceneOptions& options, const std::optional<int>& degree) {

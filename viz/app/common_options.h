@@ -32,6 +32,10 @@ void add_library_options(CLI::App& command, LibraryOptions& options, Sources sou
 [[nodiscard]] Result<std::vector<std::size_t>> select(const Library& library,
                                                       const std::string& pattern);
 
+// The library with no more than the panoramas that --panorama selects. Errors: those of load() and
+// select().
+[[nodiscard]] Result<Library> load_selected(const LibraryOptions& options);
+
 // How to look at it.
 struct SceneOptions {
   std::string scene = "lobes";
@@ -42,9 +46,14 @@ struct SceneOptions {
   double exposure_stops = 0.0;
   std::string size = "1280x720";
   std::string grid = "5x4";
+  std::string with;
 };
 
 void add_scene_options(CLI::App& command, SceneOptions& options);
+
+// The one panorama that --with names; nothing where it is not given. Error: usage.
+[[nodiscard]] Result<std::optional<std::size_t>> select_other(const Library& library,
+                                                              const std::string& with);
 
 // The same, understood.
 struct SceneChoice {

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <exception>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,16 +18,11 @@ constexpr const char* kFooter =
     "Exit status: 0 all well; 1 something could not be read, drawn or written; 2 usage error,\n"
     "nothing done.\n";
 
-// Tells a misspelt command with the one that was probably meant. False where the word is none.
-bool suggest_command(const CLI::App& app, std::string_view word) {
+// A misspelt command; nothing where the word is one or an option.
+std::optional<shoal::Error> unknown_command(const CLI::App& app, std::string_view word) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-  const std::vector<std::string_view> candidates(names.begin(), names.end());
-  if (word.starts_with("-") || std::ranges::find(names, word) != names.end()) return false;
-  const std::string_view near = shoal::closest_match(word, candidates);
-  fmt::print(stderr, "error: no command \"{}\"{}\n", word,
-             near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near));
-  return true;
+  return shoal::unknown_command(word, std::vector<std::string_view>(names.begin(), names.end()));
 }
 
 int run(const shoal::viz::Action& action) {
@@ -56,8 +51,10 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() != 0 && argc > 1 && suggest_command(app, argv[1])) {
-      return shoal::viz::kExitUsage;
+    if (error.get_exit_code() != 0 && argc > 1) {
+      if (const auto unknown = unknown_command(app, argv[1])) {
+        return shoal::viz::report_error(*unknown);
+      }
     }
     return app.exit(error) == 0 ? shoal::viz::kExitOk : shoal::viz::kExitUsage;
   }

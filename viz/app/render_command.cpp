@@ -20,7 +20,6 @@ namespace {
 struct RenderCommand {
   LibraryOptions library;
   SceneOptions scene;
-  std::string with;
   std::string output;
   std::string format;
   std::string page = "all";
@@ -53,24 +52,6 @@ Result<std::vector<int>> pages_of(const std::string& page, int count) {
                  "", "1 is the first, and all are all"};
   }
   return std::vector<int>{number - 1};
-}
-
-// What --with names: one panorama.
-Result<std::optional<std::size_t>> other_of(const Library& library, const std::string& with) {
-  if (with.empty()) return std::optional<std::size_t>();
-  SHOAL_ASSIGN_OR_RETURN(found, select(library, with));
-  if (found.size() == 1) return std::optional<std::size_t>(found.front());
-  return Error{ErrorCode::usage, fmt::format("--with {} names {} panoramas", with, found.size()),
-               "",
-               fmt::format("name one, such as {}", full_name(library.panoramas[found.front()]))};
-}
-
-Library part_of(const Library& library, const std::vector<std::size_t>& panoramas) {
-  Library part;
-  part.title = library.title;
-  for (const std::size_t panorama : panoramas)
-    part.panoramas.push_back(library.panoramas[panorama]);
-  return part;
 }
 
 class Renderer {
@@ -110,7 +91,7 @@ class Renderer {
 
   Result<std::vector<Shot>> panorama_shots() {
     SHOAL_ASSIGN_OR_RETURN(selected, select(library_, command_.library.panorama));
-    SHOAL_ASSIGN_OR_RETURN(other, other_of(library_, command_.with));
+    SHOAL_ASSIGN_OR_RETURN(other, select_other(library_, command_.scene.with));
     std::vector<std::string> names;
     for (const std::size_t panorama : selected) {
       names.push_back(full_name(library_.panoramas[panorama]));
@@ -176,9 +157,11 @@ class Renderer {
   [[nodiscard]] const std::vector<std::filesystem::path>& written() const { return written_; }
 };
 
-// The library, or nothing for a scene that needs none.
+// The library, or nothing for a scene that needs none. A contact sheet shows all that there is.
 Result<Library> library_for(const RenderCommand& command, SceneKind scene) {
-  if (!command.library.sources.empty()) return load(command.library);
+  if (!command.library.sources.empty()) {
+    return scene == SceneKind::contact ? load_selected(command.library) : load(command.library);
+  }
   if (scene == SceneKind::basis) return Library();
   return Error{ErrorCode::usage, "OUT is missing", "",
                "name an output folder of `shoal run`, a table or panoramas"};
@@ -195,11 +178,6 @@ int render(const RenderCommand& command) {
   }
   auto library = library_for(command, choice->scene);
   if (!library) return report_error(library.error());
-  if (choice->scene == SceneKind::contact) {
-    const auto selected = select(*library, command.library.panorama);
-    if (!selected) return report_error(selected.error());
-    library = part_of(*library, *selected);
-  }
   Renderer renderer(command, *choice, *format, std::move(*library));
   const Status done = renderer.run();
   for (const auto& file : renderer.written()) fmt::print("{}\n", file.string());
@@ -214,8 +192,6 @@ void add_render_command(CLI::App& app, Action& action) {
   auto options = std::make_shared<RenderCommand>();
   add_library_options(*command, options->library, Sources::optional);
   add_scene_options(*command, options->scene);
-  command->add_option("--with", options->with,
-                      "compare: the panorama or NAME.VARIANT to compare with");
   command->add_option("--page", options->page, "contact: a page from 1, or all (the default)");
   command
       ->add_option("-o,--output", options->output,

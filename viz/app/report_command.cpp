@@ -25,19 +25,6 @@ std::filesystem::path folder_of(const ReportCommand& command) {
   return std::filesystem::is_directory(source, code) ? source / "report" : "report";
 }
 
-// Only what the pattern selects; what failed stays.
-Result<Library> selected_library(const ReportCommand& command) {
-  SHOAL_ASSIGN_OR_RETURN(library, load(command.library));
-  SHOAL_ASSIGN_OR_RETURN(selected, select(library, command.library.panorama));
-  Library part;
-  part.title = library.title;
-  part.failed = library.failed;
-  for (const std::size_t panorama : selected) {
-    part.panoramas.push_back(std::move(library.panoramas[panorama]));
-  }
-  return part;
-}
-
 int report(const ReportCommand& command) {
   ReportSettings settings;
   settings.folder = folder_of(command);
@@ -46,7 +33,7 @@ int report(const ReportCommand& command) {
     if (!frame) return report_error(frame.error());
     settings.frame = *frame;
   }
-  const auto library = selected_library(command);
+  const auto library = load_selected(command.library);
   if (!library) return report_error(library.error());
   PixelCache pixels(*library);
   Progress progress("reporting");

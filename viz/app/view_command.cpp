@@ -1,8 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
-#include <utility>
 
 #include "app/commands.h"
 #include "app/common_options.h"
@@ -19,16 +20,20 @@ struct ViewCommand {
   SceneOptions scene;
 };
 
-// Those that the pattern selects.
-Result<Library> selected_library(const ViewCommand& command) {
+// What the window goes through: the panoramas that --panorama selects, and the one of --with.
+struct Exhibition {
+  Library library;
+  std::optional<std::size_t> other;  // that of --with
+};
+
+Result<Exhibition> exhibition_of(const ViewCommand& command) {
   SHOAL_ASSIGN_OR_RETURN(library, load(command.library));
-  SHOAL_ASSIGN_OR_RETURN(selected, select(library, command.library.panorama));
-  Library part;
-  part.title = library.title;
-  for (const std::size_t panorama : selected) {
-    part.panoramas.push_back(std::move(library.panoramas[panorama]));
-  }
-  return part;
+  SHOAL_ASSIGN_OR_RETURN(shown, select(library, command.library.panorama));
+  SHOAL_ASSIGN_OR_RETURN(other, select_other(library, command.scene.with));
+  if (!other) return Exhibition{part_of(library, shown), {}};
+  auto place = std::ranges::find(shown, *other);
+  if (place == shown.end()) place = shown.insert(place, *other);
+  return Exhibition{part_of(library, shown), static_cast<std::size_t>(place - shown.begin())};
 }
 
 int view(const ViewCommand& command) {
@@ -38,11 +43,12 @@ int view(const ViewCommand& command) {
     return report_error({ErrorCode::unsupported, display.error().what, "",
                          "`shoal render` makes pictures without a display"});
   }
-  const auto library = selected_library(command);
-  if (!library) return report_error(library.error());
-  PixelCache pixels(*library);
+  const auto exhibition = exhibition_of(command);
+  if (!exhibition) return report_error(exhibition.error());
+  PixelCache pixels(exhibition->library);
   tell("h shows the keys, q quits");
-  run_viewer(*library, pixels, {choice->scene, 0, choice->settings, choice->size});
+  run_viewer(exhibition->library, pixels,
+             {choice->scene, 0, exhibition->other, choice->settings, choice->size});
   return kExitOk;
 }
 

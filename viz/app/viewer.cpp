@@ -45,7 +45,10 @@ std::filesystem::path free_file(const Library& library, const ViewerState& state
 class Viewer {
  public:
   Viewer(const Library& library, PixelCache& pixels, const ViewerStart& start)
-      : library_(library), pixels_(pixels), state_{start.scene, start.panorama, start.settings} {
+      : library_(library),
+        pixels_(pixels),
+        other_(start.other),
+        state_{start.scene, start.panorama, start.settings} {
     window_->SetSize(start.size.width, start.size.height);
     window_->SetMultiSamples(kSampleCount);
     window_->SetDPI(72);  // a point of type is a pixel, whatever the monitor
@@ -102,7 +105,7 @@ class Viewer {
   }
 
   void fill() {
-    SceneInput input{&library_, state_.panorama, std::nullopt, state_.settings, &pixels_};
+    SceneInput input{&library_, state_.panorama, other_, state_.settings, &pixels_};
     if (state_.window == DegreeWindow::hann) {
       windowed_ = hann_windowed(library_, seen_panoramas(), state_.settings.degree);
       input.library = &windowed_;
@@ -116,6 +119,7 @@ class Viewer {
   }
 
   [[nodiscard]] std::vector<std::size_t> seen_panoramas() const {
+    if (state_.scene == SceneKind::compare && other_) return {state_.panorama, *other_};
     if (state_.scene != SceneKind::contact) return {state_.panorama};
     std::vector<std::size_t> all(library_.panoramas.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
@@ -157,6 +161,7 @@ class Viewer {
 
   const Library& library_;
   PixelCache& pixels_;
+  std::optional<std::size_t> other_;
   ViewerState state_;
   Library windowed_;
   TurnedCameras cameras_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include "library/library.h"
 #include "library/pixels.h"
@@ -14,6 +15,7 @@ namespace shoal::viz {
 struct ViewerStart {
   SceneKind scene = SceneKind::lobes;
   std::size_t panorama = 0;
+  std::optional<std::size_t> other;  // compare: what with; its own pixels where nothing is
   SceneSettings settings;
   PictureSize size;
 };

@@ -168,4 +168,12 @@ std::vector<std::size_t> find_panoramas(const Library& library, const std::strin
   });
 }
 
+Library part_of(const Library& library, std::span<const std::size_t> panoramas) {
+  Library part;
+  part.title = library.title;
+  part.failed = library.failed;
+  for (const std::size_t index : panoramas) part.panoramas.push_back(library.panoramas[index]);
+  return part;
+}
+
 }  // namespace shoal::viz

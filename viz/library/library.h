@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -74,5 +75,8 @@ struct LoadSettings {
 // text that is somebody's full name stands for that one alone.
 [[nodiscard]] std::vector<std::size_t> find_panoramas(const Library& library,
                                                       const std::string& pattern);
+
+// The library with these panoramas alone, in this order; what failed stays with it.
+[[nodiscard]] Library part_of(const Library& library, std::span<const std::size_t> panoramas);
 
 }  // namespace shoal::viz

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "library/light.h"
 #include "sphere/irradiance.h"
 #include "sphere/legendre.h"
 
@@ -75,19 +76,13 @@ void add_irradiance_figures(const Coefficients& radiance, LightFigures& figures)
 
 LightFigures light_figures(const Coefficients& radiance) {
   LightFigures figures;
-  for (int c = 0; c < kChannelCount; ++c) {
-    figures.mean[c] = radiance.channels[c][0] / std::sqrt(4.0 * std::numbers::pi);
-  }
+  figures.mean = mean_of(radiance);
   figures.mean_luminance = glm::dot(kLuminance, figures.mean);
   add_irradiance_figures(radiance, figures);
-  if (radiance.degree < 1) return figures;
-
-  const std::vector<double> luminance = luminance_of(radiance);
-  const glm::dvec3 vector(luminance[coefficient_index(1, 1)], luminance[coefficient_index(1, -1)],
-                          luminance[coefficient_index(1, 0)]);
+  figures.dominance = dominance_of(radiance);
+  const glm::dvec3 vector = dominant_vector(radiance);
   const double length = glm::length(vector);
   if (length > 0.0) figures.direction = vector / length;
-  if (luminance[0] > 0.0) figures.dominance = length / (std::numbers::sqrt3 * luminance[0]);
   return figures;
 }
 

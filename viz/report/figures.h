@@ -8,9 +8,6 @@
 
 namespace shoal::viz {
 
-// Rec.709's weights.
-inline constexpr glm::dvec3 kLuminance{0.2126, 0.7152, 0.0722};
-
 // Irradiance is looked at in kFigureRows x 2 kFigureRows directions, an equirect picture's texel
 // centres. An extremum between them is missed by at most L^2 (pi / kFigureRows)^2 / 4 of max |E|, L
 // the degree: Bernstein's inequality bounds the second derivative along a great circle by L^2.
@@ -29,11 +26,9 @@ struct LightFigures {
   // gets nothing. Not where max + min is not positive.
   std::optional<double> contrast;
 
-  // Of the luminance's radiance, |the vector of degree 1| / (sqrt 3 L_00): 0 for light that comes
-  // alike from opposite sides, 1 for one point. Not where the mean is not positive.
-  std::optional<double> dominance;
+  std::optional<double> dominance;  // dominance_of
 
-  // Where degree 1 points, native frame, unit length; not where it is zero.
+  // Where dominant_vector points, native frame, unit length; not where it is zero.
   std::optional<glm::dvec3> direction;
 };
 

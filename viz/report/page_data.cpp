@@ -39,11 +39,10 @@ std::string strings(const std::vector<std::string>& texts) {
 
 // Where the picture's centre, right and upper edge lie in the frame.
 std::string frame_data(const Frame& frame) {
-  const glm::dmat3 to_frame = native_to_frame(frame);
   return fmt::format(R"({{"text":{},"center":{},"right":{},"up":{},"mirrors":{}}})",
-                     script_quoted(text_of(frame)), vector_text(to_frame * glm::dvec3(-1, 0, 0)),
-                     vector_text(to_frame * glm::dvec3(0, -1, 0)),
-                     vector_text(to_frame * glm::dvec3(0, 0, 1)), mirrors(frame));
+                     script_quoted(text_of(frame)), vector_text(direction_of(frame.center)),
+                     vector_text(direction_of(frame.right)), vector_text(direction_of(frame.up)),
+                     mirrors(frame));
 }
 
 std::string figures_data(const LightFigures& figures, const Frame& frame) {
@@ -76,12 +75,12 @@ std::string entry_data(const IndexEntry& entry, const Frame& frame) {
   const Panorama& panorama = *entry.panorama;
   return fmt::format(
       R"({{"name":{},"variant":{},"file":{},"quantity":{},"degree":{},"tags":{},"warnings":{},)"
-      R"("thumbnail":{},"ball":{},"figures":{},"pixels":{}}})",
+      R"("thumbnail":{},"ball":{},"exposure":{},"figures":{},"pixels":{}}})",
       script_quoted(panorama.name), script_quoted(panorama.variant),
       script_quoted(panorama.file.filename().string()), script_quoted(name_of(panorama.quantity)),
       panorama.coefficients.degree, strings(panorama.tags), strings(panorama.warnings),
-      script_quoted(entry.thumbnail), entry.ball, figures_data(entry.figures, frame),
-      panorama.pixels ? pixels_data(*panorama.pixels) : "null");
+      script_quoted(entry.thumbnail), entry.ball, short_number(entry.exposure),
+      figures_data(entry.figures, frame), panorama.pixels ? pixels_data(*panorama.pixels) : "null");
 }
 
 // r g b of every coefficient as little-endian doubles, whatever the machine's order is.

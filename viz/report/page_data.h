@@ -16,6 +16,7 @@ namespace shoal::viz {
 struct IndexEntry {
   const Panorama* panorama = nullptr;
   LightFigures figures;
+  double exposure = 1.0;  // automatic_exposure
   std::string thumbnail;  // a path beside the page or a data: URL; empty where there is none
   std::string ball;       // what irradiance_ball gives
 };

@@ -8,13 +8,14 @@
 #include <cstdint>
 #include <memory>
 
+#include "library/light.h"
+
 namespace shoal::viz {
 namespace {
 
 constexpr int kExponentBias = 128;
 constexpr int kCompressionLevel = 9;  // 25 ms for a noisy 512x256
-constexpr double kMiddleGrey = 0.18;
-constexpr float kLargest = 1e38F;  // RGBE ends at 255 * 2^119
+constexpr float kLargest = 1e38F;     // RGBE ends at 255 * 2^119
 
 float representable(float value) {
   return value > 0.0F ? std::min(value, kLargest) : 0.0F;  // NaN is not greater
@@ -60,9 +61,7 @@ void append_chunk(std::string& out, std::string_view type, std::string_view data
 }
 
 char srgb_byte(double linear) {
-  const double v = std::clamp(linear, 0.0, 1.0);
-  const double encoded = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
-  return static_cast<char>(static_cast<unsigned char>(std::lround(255.0 * encoded)));
+  return static_cast<char>(static_cast<unsigned char>(std::lround(255.0 * srgb_encoded(linear))));
 }
 
 // Rows of filter type 1, each byte less the one a texel to its left.
@@ -126,10 +125,6 @@ Pixels shrunk(const Pixels& pixels, int width) {
     }
   }
   return out;
-}
-
-double automatic_exposure(double mean_luminance) {
-  return mean_luminance > 0.0 ? kMiddleGrey / mean_luminance : 1.0;
 }
 
 std::string srgb_png(const Pixels& pixels, double exposure) {

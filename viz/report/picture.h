@@ -24,9 +24,6 @@ inline constexpr std::string_view kPngSoftware = "shoal report";
 // The picture at width x width/2, each texel the mean of those it covers.
 [[nodiscard]] Pixels shrunk(const Pixels& pixels, int width);
 
-// The factor that brings the picture's mean luminance, of the whole sphere, to 0.18; 1 for black.
-[[nodiscard]] double automatic_exposure(double mean_luminance);
-
 // Eight-bit sRGB of exposure * pixels, clipped at white.
 [[nodiscard]] std::string srgb_png(const Pixels& pixels, double exposure);
 

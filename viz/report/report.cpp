@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/atomic_file.h"
+#include "library/light.h"
 #include "output/coefficient_table.h"
 #include "report/figures.h"
 #include "report/page.h"
@@ -108,12 +109,12 @@ class ReportWriter {
     const Coefficients radiance = radiance_of(panorama);
     const Pixels& pixels = pictures_.get(index, settings_.thumbnail_width);
     const std::string note = pixels.empty() ? pictures_.why_empty(index) : std::string();
-    IndexEntry entry{&panorama, light_figures(radiance), "", irradiance_ball(radiance)};
+    IndexEntry entry{&panorama, light_figures(radiance), automatic_exposure(radiance), "",
+                     irradiance_ball(radiance)};
     std::string data = panorama_data(radiance, settings_.frame, pixels, note);
     std::string thumbnail;
     if (!pixels.empty()) {
-      thumbnail =
-          srgb_png(shrunk(pixels, kTableWidth), automatic_exposure(entry.figures.mean_luminance));
+      thumbnail = srgb_png(shrunk(pixels, kTableWidth), entry.exposure);
     }
     if (shown_.size() == 1) {
       inlined_ = std::move(data);

@@ -6,7 +6,6 @@
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
 #include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
@@ -14,9 +13,11 @@
 #include <vtkTransform.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <vector>
 
 #include "scenes/type.h"
 #include "scenes/vtk_data.h"
@@ -51,43 +52,30 @@ vtkActor& add_actor(vtkRenderer& view, vtkPolyData& data, Shading shading) {
   return *actor;
 }
 
-glm::vec3 direction_of(const SignedAxis& axis) {
-  glm::vec3 direction(0.0f);
-  direction[axis.axis] = static_cast<float>(axis.sign);
-  return direction;
-}
-
 // Texture coordinates reach to the middle of the outermost rows, whose texels stand for the poles.
 vtkSmartPointer<vtkPolyData> equirect_ball(int rows, int columns, PictureSize texels,
                                            const glm::dmat3& turn) {
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkFloatArray> places;
-  places->SetNumberOfComponents(2);
+  std::vector<TexturedPoint> points;
   for (int i = 0; i <= rows; ++i) {
     const double theta = std::numbers::pi * i / rows;
     const double v =
         std::clamp(1.0 - double(i) / rows, 0.5 / texels.height, 1.0 - 0.5 / texels.height);
     for (int j = 0; j <= columns; ++j) {
       const double phi = 2.0 * std::numbers::pi * j / columns;
-      const glm::dvec3 p = turn * glm::dvec3(std::sin(theta) * std::cos(phi),
-                                             std::sin(theta) * std::sin(phi), std::cos(theta));
-      points->InsertNextPoint(p.x, p.y, p.z);
-      places->InsertNextTuple2(double(j) / columns, v);
+      const glm::dvec3 native(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                              std::cos(theta));
+      points.push_back({turn * native, {double(j) / columns, v}});
     }
   }
-  vtkNew<vtkCellArray> cells;
+  std::vector<std::array<vtkIdType, 4>> faces;
   for (int i = 0; i < rows; ++i) {
     for (int j = 0; j < columns; ++j) {
       const vtkIdType a = i * (columns + 1) + j;
       const vtkIdType b = a + columns + 1;
-      cells->InsertNextCell({a, b, b + 1, a + 1});
+      faces.push_back({a, b, b + 1, a + 1});
     }
   }
-  auto data = vtkSmartPointer<vtkPolyData>::New();
-  data->SetPoints(points);
-  data->SetPolys(cells);
-  data->GetPointData()->SetTCoords(places);
-  return data;
+  return textured_poly_data(points, faces);
 }
 
 }  // namespace
@@ -181,10 +169,9 @@ void add_label(Stage& stage, vtkRenderer& view, const glm::vec3& point, const st
 
 glm::vec3 viewer_direction(const Frame& frame) {
   // From behind (-centre), to the side on which a horizontal axis comes towards the viewer, above.
-  const glm::vec3 back = -direction_of(frame.center);
-  glm::vec3 side = direction_of(frame.right);
-  if (frame.right.sign < 0) side = -side;
-  return glm::normalize(back + 0.62f * side + 0.48f * direction_of(frame.up));
+  const glm::dvec3 back = -direction_of(frame.center);
+  const glm::dvec3 side = direction_of({frame.right.axis, 1});
+  return glm::vec3(glm::normalize(back + 0.62 * side + 0.48 * direction_of(frame.up)));
 }
 
 void aim_camera(vtkRenderer& view, const Frame& frame, double radius, const glm::vec3& target) {
@@ -197,7 +184,7 @@ void aim_camera(vtkRenderer& view, const Frame& frame, double radius, const glm:
   const double narrow = std::atan(std::tan(half_angle) * std::min(1.0, aspect));
   const double distance = kMargin * radius / std::sin(narrow);
   const glm::vec3 eye = target + static_cast<float>(distance) * viewer_direction(frame);
-  const glm::vec3 up = direction_of(frame.up);
+  const glm::dvec3 up = direction_of(frame.up);
   vtkCamera& camera = *view.GetActiveCamera();
   camera.SetFocalPoint(target.x, target.y, target.z);
   camera.SetPosition(eye.x, eye.y, eye.z);

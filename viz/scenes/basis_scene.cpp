@@ -1,5 +1,3 @@
-#include <vtkCamera.h>
-
 #include <cmath>
 #include <cstdlib>
 #include <glm/geometric.hpp>
@@ -11,9 +9,8 @@
 #include "scenes/axes.h"
 #include "scenes/legends.h"
 #include "scenes/scene_parts.h"
+#include "scenes/shared_camera.h"
 #include "sphere/basis.h"
-
-#include <vtkCamera.h>
 
 namespace shoal::viz {
 namespace {
@@ -75,7 +72,7 @@ Status show_basis_scene(const SceneInput& input, Stage& stage) {
   // |Y_lm| <= sqrt((2l+1)/(4 pi)), which the zonal one reaches at its pole (addition theorem).
   const double largest = std::sqrt((2.0 * degree + 1.0) / (4.0 * std::numbers::pi));
   std::vector<double> values(samples.size());
-  vtkCamera* camera = nullptr;  // one for all, so that all turn together
+  SharedCamera camera;  // one for all, so that all turn together
   for (int l = 0; l <= degree; ++l) {
     for (int m = -l; m <= l; ++m) {
       for (std::size_t i = 0; i < values.size(); ++i)
@@ -83,9 +80,7 @@ Status show_basis_scene(const SceneInput& input, Stage& stage) {
       const Mesh lobe = lobe_mesh(sphere, values, 1.0 / largest);
       vtkRenderer& view = stage.add_view(pyramid.view(l, m));
       add_mesh(view, lobe, sign_colours(lobe), Shading::lit);
-      if (camera == nullptr) aim_camera(view, input.settings.frame, kClose);
-      if (camera == nullptr) camera = view.GetActiveCamera();
-      view.SetActiveCamera(camera);
+      camera.look(view, input.settings.frame, kClose);
       const Rectangle cell = pyramid.cell(l, m);
       stage.add_text(cell.center_x(), cell.bottom,
                      std::to_string(l) + ", " + (m < 0 ? kMinus : "") + std::to_string(std::abs(m)),

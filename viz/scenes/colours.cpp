@@ -6,8 +6,9 @@
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
-#include <numbers>
 #include <span>
+
+#include "library/light.h"
 
 namespace shoal::viz {
 namespace {
@@ -65,13 +66,7 @@ glm::vec3 diverging_colour(double t) { return along(kDiverging, 0.5 + 0.5 * t); 
 glm::vec3 sequential_colour(double t) { return along(kSequential, t); }
 
 glm::vec3 srgb_encoded(const glm::dvec3& linear) {
-  glm::vec3 encoded;
-  for (int c = 0; c < 3; ++c) {
-    const double x = std::clamp(linear[c], 0.0, 1.0);
-    encoded[c] =
-        static_cast<float>(x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055);
-  }
-  return encoded;
+  return {srgb_encoded(linear.r), srgb_encoded(linear.g), srgb_encoded(linear.b)};
 }
 
 glm::vec3 tone_mapped(const glm::dvec3& light, double exposure) {
@@ -83,15 +78,6 @@ glm::vec3 tone_mapped(const glm::dvec3& light, double exposure) {
   return srgb_encoded(toned);
 }
 
-double automatic_exposure(const Coefficients& radiance, double stops) {
-  // L_00 Y_00 is the mean over the sphere, Y_00 = 1/sqrt(4 pi).
-  const double y00 = 0.5 / std::sqrt(std::numbers::pi);
-  const double mean = y00 * (0.2126 * radiance.channels[0][0] + 0.7152 * radiance.channels[1][0] +
-                             0.0722 * radiance.channels[2][0]);
-  const double automatic = std::isfinite(mean) && mean > 0.0 ? kMeanTone / mean : 1.0;
-  return automatic * std::exp2(stops);
-}
-
 glm::vec3 pure_colour(const glm::dvec3& light) {
   const glm::dvec3 there = glm::max(light, glm::dvec3(0.0));
   const double largest = std::max({there.r, there.g, there.b});
@@ -99,11 +85,7 @@ glm::vec3 pure_colour(const glm::dvec3& light) {
 }
 
 double lightness(const glm::vec3& srgb) {
-  glm::dvec3 linear;
-  for (int c = 0; c < 3; ++c) {
-    const double x = srgb[c];
-    linear[c] = x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
-  }
+  const glm::dvec3 linear(srgb_decoded(srgb.r), srgb_decoded(srgb.g), srgb_decoded(srgb.b));
   const glm::dvec3 cones(glm::dot(linear, {0.4122214708, 0.5363325363, 0.0514459929}),
                          glm::dot(linear, {0.2119034982, 0.6806995451, 0.1073969566}),
                          glm::dot(linear, {0.0883024619, 0.2817188376, 0.6299787005}));

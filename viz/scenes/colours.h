@@ -7,8 +7,6 @@
 
 #include <glm/vec3.hpp>
 
-#include "sphere/coefficients.h"
-
 namespace shoal::viz {
 
 namespace theme {
@@ -39,12 +37,6 @@ inline constexpr glm::vec3 kBar{0.42f, 0.70f, 0.66f};          // bars of a char
 // towards 1 without ever reaching it, channel by channel so that what is too bright fades to white,
 // then sRGB. Negative light is black; what is not finite is magenta, so that nobody overlooks it.
 [[nodiscard]] glm::vec3 tone_mapped(const glm::dvec3& light, double exposure);
-
-// The exposure at which a panorama's mean luminance is `kMeanTone` of white, times 2^stops; 2^stops
-// for one whose mean is not positive. The mean is that of the sphere, so a sun counts as the eye
-// counts it.
-inline constexpr double kMeanTone = 0.3;
-[[nodiscard]] double automatic_exposure(const Coefficients& radiance, double stops = 0.0);
 
 // The colour of light at full brightness: the largest channel is 1. Dark grey where there is none.
 [[nodiscard]] glm::vec3 pure_colour(const glm::dvec3& light);

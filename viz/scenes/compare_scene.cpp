@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "library/light.h"
 #include "scenes/difference.h"
 #include "scenes/equirect.h"
 #include "scenes/legends.h"
@@ -87,29 +88,21 @@ Rectangle add_side(const std::string& title, const Picture& picture, Stage& stag
   return place;
 }
 
-std::string percent(double share) { return text_of(100.0 * share) + " %"; }
+// The texel's middle, as fractions of the picture.
+glm::dvec2 middle_of(std::size_t texel, const Pixels& pixels) {
+  return {(static_cast<double>(texel % pixels.width) + 0.5) / pixels.width,
+          (static_cast<double>(texel / pixels.width) + 0.5) / pixels.height};
+}
 
 std::string place_text(std::size_t texel, const Pixels& pixels) {
-  const double theta = 180.0 * (static_cast<double>(texel / pixels.width) + 0.5) / pixels.height;
-  const double phi = 360.0 * (static_cast<double>(texel % pixels.width) + 0.5) / pixels.width;
+  const glm::dvec2 middle = middle_of(texel, pixels);
   char text[64];
-  std::snprintf(text, sizeof text, "%.0f°, %.0f°", theta, phi);
+  std::snprintf(text, sizeof text, "%.0f°, %.0f°", 180.0 * middle.y, 360.0 * middle.x);
   return text;
 }
 
-// A square around a texel of a picture that fills the area.
-void mark(std::size_t texel, const Pixels& pixels, Stage& stage, const Rectangle& area) {
-  const Rectangle cell =
-      grid_cell(area, pixels.width, pixels.height, static_cast<int>(texel % pixels.width),
-                static_cast<int>(texel / pixels.width));
-  const double half = 0.011;
-  const double half_width = half * stage.height() / stage.width();
-  const double x = std::clamp(cell.center_x(), area.left + half_width, area.right - half_width);
-  const double y = std::clamp(cell.center_y(), area.bottom + half, area.top - half);
-  stage.add_outline({x - half_width, y - half, x + half_width, y + half}, theme::kBackground);
-}
-
-// What the colours stand for, and the figures.
+// What the colours stand for, and the figures. Where there is no room for all, the bar's name goes,
+// which is the picture's, and then the note below it.
 void add_key(const Pair& pair, const Difference& difference, const std::string& channel,
              Stage& stage, const Rectangle& card) {
   const double line = stage.line_height(TextSize::label);
@@ -117,18 +110,24 @@ void add_key(const Pair& pair, const Difference& difference, const std::string& 
   const Rectangle inner = inset(card, 0.018, 0.02);
   const FigureRow rows[] = {
       {"RMS over the sphere", text_of(difference.rms)},
-      {"of " + pair.left_noun + " RMS", percent(difference.relative_rms)},
+      {"of " + pair.left_noun + " RMS", percent_of(difference.relative_rms)},
       {"largest", text_of(difference.largest)},
       {"there (square): theta, phi", place_text(difference.largest_texel, pair.left.light)},
   };
   add_figures(stage, inner, rows);
-  const Rectangle bar{inner.left, inner.bottom + 2.0 * line, inner.right,
-                      inner.bottom + 2.9 * line};
-  add_colour_bar(stage, bar,
-                 {-difference.scale, difference.scale, "right minus left, " + channel,
-                  [](double fraction) { return diverging_colour(2.0 * fraction - 1.0); }});
+  const double room = inner.height() - figures_height(stage, rows);
+  const double name = 1.2 * stage.line_height(TextSize::small);
+  const double bar = 1.9 * line;  // with its numbers
+  const bool has_note = room >= bar + line;
+  const bool has_name = room >= bar + line + name;
+  const double bottom = inner.bottom + (has_note ? 2.0 : 1.0) * line;
+  add_colour_bar(
+      stage, {inner.left, bottom, inner.right, bottom + 0.9 * line},
+      {-difference.scale, difference.scale, has_name ? "right minus left, " + channel : "",
+       [](double fraction) { return diverging_colour(2.0 * fraction - 1.0); }});
+  if (!has_note) return;
   stage.add_text(inner.left, inner.bottom - 0.1 * line,
-                 percent(kBeyondScale) + " of the texels lie beyond the ends",
+                 percent_of(kBeyondScale) + " of the texels lie beyond the ends",
                  {.size = TextSize::small, .colour = theme::kDimText, .max_width = inner.width()});
 }
 
@@ -141,7 +140,7 @@ Status show_compare_scene(const SceneInput& input, Stage& stage) {
       difference_of(pair.left.light, pair.right.light, input.settings.channel);
   stage.set_title(title_of(current_panorama(input)), pair.subject);
   stage.set_caption("difference of " + channel + ": RMS " + text_of(difference.rms) + " (" +
-                    percent(difference.relative_rms) + " of " + pair.left_noun + "), largest " +
+                    percent_of(difference.relative_rms) + " of " + pair.left_noun + "), largest " +
                     text_of(difference.largest) + "; one exposure, " +
                     text_of(std::log2(pair.exposure)) + " stops");
   const double gap = 0.01;
@@ -155,7 +154,8 @@ Status show_compare_scene(const SceneInput& input, Stage& stage) {
   const Rectangle below =
       add_side("right minus left, " + channel, difference_picture(difference, pair.left.light),
                stage, cell(0, 1));
-  mark(difference.largest_texel, pair.left.light, stage, below);
+  add_mark(stage, below, middle_of(difference.largest_texel, pair.left.light), 0.011,
+           theme::kBackground);
   add_key(pair, difference, channel, stage, place_of_picture(stage, cell(1, 1)));
   return {};
 }

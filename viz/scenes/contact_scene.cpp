@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
+#include "library/light.h"
 #include "scenes/actors.h"
 #include "scenes/axes.h"
 #include "scenes/ball_picture.h"
@@ -22,26 +22,6 @@ constexpr int kThumbnailWidth = 256;
 constexpr const char* kBetween = " · ";  // figures, on cards and in the caption
 constexpr int kLobeRings = 24;
 constexpr int kBallDegree = 4;  // beyond it the clamped cosine leaves a few thousandths
-
-double luminance_of(const Coefficients& radiance, int index) {
-  return channel_of(glm::dvec3(radiance.channels[0][index], radiance.channels[1][index],
-                               radiance.channels[2][index]),
-                    Channel::luminance);
-}
-
-// How far the light comes from one side: the length of degree 1 over what light from a single
-// direction would have, 0 to 1.
-double directedness(const Coefficients& radiance) {
-  const double all = luminance_of(radiance, 0);
-  if (radiance.degree < 1 || all <= 0.0) return 0.0;
-  const double length =
-      std::hypot(luminance_of(radiance, 1), luminance_of(radiance, 2), luminance_of(radiance, 3));
-  return std::min(1.0, length / (std::sqrt(3.0) * all));
-}
-
-double mean_luminance(const Coefficients& radiance) {
-  return luminance_of(radiance, 0) / std::sqrt(4.0 * std::numbers::pi);
-}
 
 void add_thumbnail(const SceneInput& input, std::size_t index, double exposure, Stage& stage,
                    const Rectangle& place) {
@@ -64,7 +44,7 @@ void add_words(const Panorama& panorama, const Coefficients& radiance, const Con
                Stage& stage) {
   const Rectangle& words = card.words;
   const double line = stage.line_height(TextSize::small);
-  const std::string mean = text_of(mean_luminance(radiance));
+  const std::string mean = text_of(channel_of(mean_of(radiance), Channel::luminance));
   TextStyle figures{.size = TextSize::small, .colour = theme::kDimText, .max_width = words.width()};
   if (card.lines == 1) {
     const double used = stage.text_width(mean + "  ", TextSize::small);
@@ -76,14 +56,15 @@ void add_words(const Panorama& panorama, const Coefficients& radiance, const Con
   }
   stage.add_text(words.left, words.top - 0.9 * line, title_of(panorama),
                  {.size = TextSize::small, .max_width = words.width()});
-  const std::string directed = text_of(std::round(100.0 * directedness(radiance))) + " %";
+  const double dominance = std::min(1.0, dominance_of(radiance).value_or(0.0));
+  const std::string directed = text_of(std::round(100.0 * dominance)) + " %";
   stage.add_text(words.left, words.top - 1.9 * line, mean + kBetween + directed, figures);
 }
 
 void add_lobe(const SceneInput& input, const Panorama& panorama, SharedCamera& camera, Stage& stage,
               const Rectangle& place) {
   vtkRenderer& view = stage.add_view(place);
-  camera.look(view, input.settings.frame, 1.0);
+  camera.look_at_lit_side(view, input.settings.frame, 1.0);
   const Lobe lobe = make_lobe(panorama, input.settings, kLobeRings);
   add_small_axes(view, 1.0);
   add_mesh(view, lobe.mesh, lobe.colours, Shading::lit);

@@ -1,31 +1,29 @@
-#include <vtkCamera.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "library/light.h"
 #include "scenes/actors.h"
 #include "scenes/axes.h"
 #include "scenes/legends.h"
 #include "scenes/scene_parts.h"
+#include "scenes/shared_camera.h"
 #include "sphere/linear_operations.h"
 
 namespace shoal::viz {
 namespace {
 
 constexpr int kMostLobes = 11;
+constexpr const char* kWidestLabel = "each its own scale";  // of those left of the lobes
 
 // The sum over m of the channel's c_lm^2: what degree l has of the integral of f^2.
 std::vector<double> energies_of(const Coefficients& coefficients, Channel channel) {
   std::vector<double> energies(coefficients.degree + 1, 0.0);
   for (int l = 0; l <= coefficients.degree; ++l) {
     for (int m = -l; m <= l; ++m) {
-      const int i = coefficient_index(l, m);
-      const double c = channel_of(
-          {coefficients.channels[0][i], coefficients.channels[1][i], coefficients.channels[2][i]},
-          channel);
+      const double c = channel_of(colour_at(coefficients, coefficient_index(l, m)), channel);
       energies[l] += c * c;
     }
   }
@@ -71,16 +69,14 @@ std::vector<PartialSum> partial_sums(const Mesh& sphere, const Coefficients& who
 // A row of lobes under one camera; r = 1 is `unit`, or each one's own largest value.
 void add_lobe_row(const std::vector<PartialSum>& sums, const Mesh& sphere, const Frame& frame,
                   std::optional<double> unit, Stage& stage, const Rectangle& area) {
-  vtkCamera* camera = nullptr;
+  SharedCamera camera;
   for (std::size_t i = 0; i < sums.size(); ++i) {
     const auto count = static_cast<int>(sums.size());
     vtkRenderer& view = stage.add_view(grid_cell(area, count, 1, static_cast<int>(i), 0));
     const Mesh lobe = lobe_mesh(sphere, sums[i].values, 1.0 / unit.value_or(sums[i].largest));
     add_small_axes(view, 1.0);
     add_mesh(view, lobe, sign_colours(lobe), Shading::lit);
-    if (camera == nullptr) aim_camera(view, frame, 1.08);
-    if (camera == nullptr) camera = view.GetActiveCamera();
-    view.SetActiveCamera(camera);
+    camera.look(view, frame, 1.08);
   }
 }
 
@@ -101,7 +97,7 @@ void add_partial_sums(const SceneInput& input, const Coefficients& whole, Stage&
   const TextStyle dim{.size = TextSize::small, .colour = theme::kDimText};
   const double margin = stage.body().left;
   stage.add_text(margin, shapes.center_y(), "shape,", dim);
-  stage.add_text(margin, shapes.center_y() - line, "each its own scale", dim);
+  stage.add_text(margin, shapes.center_y() - line, kWidestLabel, dim);
   stage.add_text(margin, sizes.center_y(), "size,", dim);
   stage.add_text(margin, sizes.center_y() - line, "one scale", dim);
   for (std::size_t i = 0; i < sums.size(); ++i) {
@@ -170,7 +166,8 @@ Status show_degrees_scene(const SceneInput& input, Stage& stage) {
               entries);
 
   Rectangle body = stage.body();
-  body.left += 0.115;  // the rows' and the axis' labels
+  // The rows' and the axis' labels.
+  body.left += std::max(0.115, stage.text_width(kWidestLabel, TextSize::small) + 0.01);
   const double line = stage.line_height(TextSize::label);
   const double split = body.bottom + 0.42 * body.height();
   add_partial_sums(input, whole, stage, {body.left, split, body.right, body.top});

@@ -11,6 +11,8 @@
 #include <glm/mat3x3.hpp>
 
 #include "core/version.h"
+#include "library/light.h"
+#include "output/text_quoting.h"
 
 namespace shoal::viz {
 namespace {
@@ -32,14 +34,10 @@ std::size_t append(std::string& bytes, const std::vector<T>& items) {
   return offset;
 }
 
-float linear_of(float encoded) {
-  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
-}
-
 Buffer buffer_of(const GltfModel& model) {
   std::vector<glm::vec3> linear;
   for (const glm::vec3& c : model.colours) {
-    linear.emplace_back(linear_of(c.r), linear_of(c.g), linear_of(c.b));
+    linear.emplace_back(srgb_decoded(c.r), srgb_decoded(c.g), srgb_decoded(c.b));
   }
   Buffer buffer;
   append(buffer.bytes, model.mesh.positions);
@@ -59,31 +57,10 @@ std::string triple(const glm::vec3& v) {
   return '[' + number(v.x) + ", " + number(v.y) + ", " + number(v.z) + ']';
 }
 
-std::string quoted(const std::string& text) {
-  std::string json = "\"";
-  for (const char c : text) {
-    char code[8];
-    if (c == '"' || c == '\\') json += '\\';
-    if (static_cast<unsigned char>(c) < 0x20) {
-      std::snprintf(code, sizeof code, "\\u%04x", static_cast<unsigned>(c));
-      json += code;
-    } else {
-      json += c;
-    }
-  }
-  return json + '"';
-}
-
-glm::vec3 direction_of(const SignedAxis& axis) {
-  glm::vec3 direction(0.0f);
-  direction[axis.axis] = static_cast<float>(axis.sign);
-  return direction;
-}
-
 // The rotation that takes the frame's up to +y and its centre to +z, as a quaternion x, y, z, w.
 std::string rotation_of(const Frame& frame) {
-  const glm::vec3 up = direction_of(frame.up);
-  const glm::vec3 front = direction_of(frame.center);
+  const glm::vec3 up(direction_of(frame.up));
+  const glm::vec3 front(direction_of(frame.center));
   // Rows are what comes to x, y, z.
   const glm::mat3 turn = glm::transpose(glm::mat3(glm::cross(up, front), up, front));
   const glm::quat q = glm::normalize(glm::quat_cast(turn));
@@ -118,7 +95,8 @@ std::string json_of(const GltfModel& model, const Buffer& buffer, const std::str
   constexpr int kIndices = 34963;   // ELEMENT_ARRAY_BUFFER
   std::string notes;
   for (const auto& [name, value] : model.notes) {
-    notes += (notes.empty() ? "" : ",\n") + ("      " + quoted(name)) + ": " + quoted(value);
+    notes +=
+        (notes.empty() ? "" : ",\n") + ("      " + json_quoted(name)) + ": " + json_quoted(value);
   }
   const std::size_t part = buffer.normals;  // positions, normals and colours are equally long
   return "{\n  \"asset\": {\n    \"version\": \"2.0\",\n    \"generator\": \"shoal " +

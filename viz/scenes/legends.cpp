@@ -5,6 +5,13 @@
 #include <cstdio>
 
 namespace shoal::viz {
+namespace {
+
+constexpr double kGapOverHeading = 0.5;  // of a column of figures, in its lines
+
+double figure_line(const Stage& stage) { return 1.15 * stage.line_height(TextSize::label); }
+
+}  // namespace
 
 void add_colour_bar(Stage& stage, const Rectangle& area, const ColourBar& bar) {
   constexpr int kSteps = 256;
@@ -52,11 +59,11 @@ void set_caption(Stage& stage, const std::string& line, std::span<const LegendEn
 }
 
 double add_figures(Stage& stage, const Rectangle& area, std::span<const FigureRow> rows) {
-  const double line = 1.15 * stage.line_height(TextSize::label);
+  const double line = figure_line(stage);
   double y = area.top;
   for (const FigureRow& row : rows) {
     if (row.value.empty()) {
-      if (y < area.top) y -= 0.5 * line;
+      if (y < area.top) y -= kGapOverHeading * line;
       y -= line;
       stage.add_text(area.left, y, row.name, {.max_width = area.width()});
       continue;
@@ -70,6 +77,25 @@ double add_figures(Stage& stage, const Rectangle& area, std::span<const FigureRo
   return y;
 }
 
+double figures_height(const Stage& stage, std::span<const FigureRow> rows) {
+  double lines = 0.0;
+  for (const FigureRow& row : rows) {
+    if (row.value.empty() && lines > 0.0) lines += kGapOverHeading;
+    lines += 1.0;
+  }
+  return lines * figure_line(stage);
+}
+
+void add_mark(Stage& stage, const Rectangle& area, const glm::dvec2& place, double half,
+              const glm::vec3& colour) {
+  const double half_width = half * stage.height() / stage.width();
+  const double x = std::clamp(area.left + area.width() * place.x, area.left + half_width,
+                              area.right - half_width);
+  const double y =
+      std::clamp(area.top - area.height() * place.y, area.bottom + half, area.top - half);
+  stage.add_outline({x - half_width, y - half, x + half_width, y + half}, colour);
+}
+
 std::string text_of(double value) {
   char text[32];
   if (value < 0.0) return kMinus + text_of(-value);
@@ -78,6 +104,8 @@ std::string text_of(double value) {
   std::snprintf(text, sizeof text, plain && size >= 100.0 ? "%.0f" : "%.3g", value);
   return text;
 }
+
+std::string percent_of(double share) { return text_of(100.0 * share) + " %"; }
 
 std::vector<Tick> ticks_between(double low, double high, int count) {
   std::vector<Tick> ticks;

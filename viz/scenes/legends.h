@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <span>
 #include <string>
@@ -40,6 +41,14 @@ struct FigureRow {
 // A column of figures, from the area's top. Returns the y below it.
 double add_figures(Stage& stage, const Rectangle& area, std::span<const FigureRow> rows);
 
+// How high that column is.
+[[nodiscard]] double figures_height(const Stage& stage, std::span<const FigureRow> rows);
+
+// A square around a place of a picture that fills the area, as fractions of its width and its
+// height from its upper left corner; `half` its side, of the window's height. It stays inside.
+void add_mark(Stage& stage, const Rectangle& area, const glm::dvec2& place, double half,
+              const glm::vec3& colour);
+
 // Round numbers of [low, high] that suit about `count` ticks, ascending: {0, "0"}, {0.25, "0.25"}.
 struct Tick {
   double value = 0.0;
@@ -52,5 +61,8 @@ inline constexpr const char* kMinus = "\u2212";
 
 // A number for people: three significant digits, no exponent between 0.0005 and 99999.
 [[nodiscard]] std::string text_of(double value);
+
+// 0.125 is "12.5 %".
+[[nodiscard]] std::string percent_of(double share);
 
 }  // namespace shoal::viz

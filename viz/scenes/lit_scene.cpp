@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "library/light.h"
 #include "scenes/actors.h"
 #include "scenes/axes.h"
 #include "scenes/exhibits.h"
@@ -95,7 +96,7 @@ using ColourOf = std::function<glm::vec3(std::size_t mesh, std::size_t vertex)>;
 void add_exhibits(const std::vector<Mesh>& meshes, const ColourOf& colour_of, const Frame& frame,
                   SharedCamera& camera, Stage& stage, const Rectangle& area) {
   vtkRenderer& view = stage.add_view(area);
-  camera.look(view, frame, kSceneRadius);
+  camera.look_at_lit_side(view, frame, kSceneRadius);
   for (std::size_t mesh = 0; mesh < meshes.size(); ++mesh) {
     std::vector<glm::vec3> colours;
     for (std::size_t i = 0; i < meshes[mesh].positions.size(); ++i) {
@@ -133,8 +134,6 @@ ColourOf as_seen(const Light& light, double exposure) {
     return tone_mapped(kAlbedo / std::numbers::pi * light[mesh][i], exposure);
   };
 }
-
-std::string percent(double share) { return text_of(100.0 * share) + " %"; }
 
 void show_alone(const std::vector<Mesh>& meshes, const Comparison& lit, double exposure,
                 const Frame& frame, Stage& stage) {
@@ -186,8 +185,8 @@ Status show_lit_scene(const SceneInput& input, Stage& stage) {
   const double mean = lit.mean > 0.0 ? lit.mean : 1.0;
   const std::string figures =
       missing.empty()
-          ? "over all normals the nine coefficients are off by " + percent(lit.rms / mean) +
-                " of the mean (RMS), at most by " + percent(lit.largest / mean)
+          ? "over all normals the nine coefficients are off by " + percent_of(lit.rms / mean) +
+                " of the mean (RMS), at most by " + percent_of(lit.largest / mean)
           : "no reference: " + missing;
   const std::string lines[] = {
       figures + "; irradiance on albedo 0.8, without shadows",

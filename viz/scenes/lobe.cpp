@@ -2,22 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "library/light.h"
 #include "scenes/actors.h"
 #include "scenes/scene_parts.h"
 
 namespace shoal::viz {
-namespace {
-
-double mean_of(const Coefficients& coefficients, Channel channel) {
-  const glm::dvec3 first(coefficients.channels[0][0], coefficients.channels[1][0],
-                         coefficients.channels[2][0]);
-  return channel_of(first, channel) * 0.5 / std::sqrt(std::numbers::pi);
-}
-
-}  // namespace
-
 Lobe make_lobe(const Panorama& panorama, const SceneSettings& settings, int rings) {
   const Coefficients coefficients = shown_coefficients(panorama, settings);
   const Mesh sphere = sphere_mesh(rings);
@@ -27,7 +17,7 @@ Lobe make_lobe(const Panorama& panorama, const SceneSettings& settings, int ring
 
   Lobe lobe;
   lobe.degree = coefficients.degree;
-  lobe.mean = mean_of(coefficients, settings.channel);
+  lobe.mean = channel_of(mean_of(coefficients), settings.channel);
   lobe.smallest = *smallest;
   lobe.largest = *largest;
   lobe.largest_direction = sphere.positions[largest - values.begin()];

@@ -2,12 +2,13 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/mat3x3.hpp>
-#include <numbers>
 #include <string>
 #include <vector>
 
+#include "library/light.h"
 #include "scenes/actors.h"
 #include "scenes/axes.h"
+#include "scenes/equirect.h"
 #include "scenes/legends.h"
 #include "scenes/lobe.h"
 #include "scenes/pictures.h"
@@ -42,28 +43,31 @@ std::vector<FigureRow> figures_of(const SceneInput& input, const Lobe& lobe) {
   return rows;
 }
 
-// The panorama itself, if its pixels are there, and where in it the lobe is farthest out.
-void add_thumbnail(const SceneInput& input, const Lobe& lobe, Stage& stage,
-                   const Rectangle& column) {
+std::string wording(const Stage& stage, TextSize size, double width, const std::string& full,
+                    const std::string& brief) {
+  return stage.text_width(full, size) <= width ? full : brief;
+}
+
+// The panorama itself, if its pixels are there, and where in it the lobe is farthest out. At the
+// bottom of the area, as large as there is room for.
+void add_thumbnail(const SceneInput& input, const Lobe& lobe, Stage& stage, const Rectangle& area) {
   const Pixels& pixels = input.pixels->get(input.current, 512);
-  if (pixels.empty()) return;
-  const double height = 0.5 * column.width() * stage.width() / stage.height();
-  const Rectangle place{column.left, column.bottom, column.right, column.bottom + height};
+  const double line = stage.line_height(TextSize::small);
+  const double whole = 0.5 * area.width() * stage.width() / stage.height();
+  const double height = std::min(whole, area.height() - 1.3 * line);
+  if (pixels.empty() || height < 2.0 * line) return;
+  const Rectangle place{area.left, area.bottom, area.left + area.width() * height / whole,
+                        area.bottom + height};
   const double exposure =
       automatic_exposure(radiance_of(current_panorama(input)), input.settings.exposure_stops);
   stage.add_picture(place, tone_mapped_picture(pixels, exposure));
-  const glm::dvec3 d =
-      glm::transpose(native_to_frame(input.settings.frame)) * glm::dvec3(lobe.largest_direction);
-  const double turn = std::atan2(d.y, d.x) / (2.0 * std::numbers::pi);
-  const double x = place.left + place.width() * (turn - std::floor(turn));
-  const double y =
-      place.top - place.height() * std::acos(std::clamp(d.z, -1.0, 1.0)) / std::numbers::pi;
-  const double side = 0.016;
-  const double across = side * stage.height() / stage.width();
-  stage.add_outline({x - across, y - side, x + across, y + side}, theme::kAccent);
-  stage.add_text(place.left, place.top + 0.3 * stage.line_height(TextSize::small),
-                 "the panorama; square: largest f",
-                 {.size = TextSize::small, .colour = theme::kDimText});
+  const glm::dmat3 to_native = glm::transpose(native_to_frame(input.settings.frame));
+  add_mark(stage, place, place_of(to_native * glm::dvec3(lobe.largest_direction)), 0.016,
+           theme::kAccent);
+  stage.add_text(place.left, place.top + 0.3 * line,
+                 wording(stage, TextSize::small, area.width(), "the panorama; square: largest f",
+                         "square: largest f"),
+                 {.size = TextSize::small, .colour = theme::kDimText, .max_width = area.width()});
 }
 
 }  // namespace
@@ -85,15 +89,19 @@ Status show_lobes_scene(const SceneInput& input, Stage& stage) {
   aim_camera(view, settings.frame, 1.21);
 
   const double below = add_figures(stage, side, figures_of(input, lobe));
-  const double step = 1.15 * stage.line_height(TextSize::label);
+  const double legend = below - 1.725 * stage.line_height(TextSize::label);
   if (settings.colour == LobeColour::sign) {
     const LegendEntry entries[] = {{theme::kPositive, "f > 0"}, {theme::kNegative, "f < 0"}};
-    add_legend(stage, side.right, below - 1.5 * step, entries);
+    add_legend(stage, side.right, legend, entries);
   } else {
-    stage.add_text(side.left, below - 1.5 * step, "colour: the light's own, at full brightness",
-                   {.colour = theme::kDimText, .max_width = side.width()});
+    stage.add_text(
+        side.left, legend,
+        wording(stage, TextSize::label, side.width(), "colour: the light's own, at full brightness",
+                "colour: the light's own"),
+        {.colour = theme::kDimText, .max_width = side.width()});
   }
-  add_thumbnail(input, lobe, stage, side);
+  const double free = legend - 0.5 * stage.line_height(TextSize::label);
+  add_thumbnail(input, lobe, stage, {side.left, side.bottom, side.right, free});
   return {};
 }
 

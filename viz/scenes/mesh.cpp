@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "library/light.h"
 #include "sphere/basis.h"
 
 namespace shoal::viz {
@@ -143,7 +144,7 @@ double channel_of(const glm::dvec3& rgb, Channel channel) {
     case Channel::luminance:
       break;
   }
-  return glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722));
+  return glm::dot(rgb, kLuminance);
 }
 
 std::vector<double> channel_of(std::span<const glm::dvec3> rgb, Channel channel) {

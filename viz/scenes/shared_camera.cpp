@@ -5,33 +5,29 @@
 #include "scenes/actors.h"
 
 namespace shoal::viz {
-namespace {
-
-glm::vec3 direction_of(const SignedAxis& axis) {
-  glm::vec3 direction(0.0f);
-  direction[axis.axis] = static_cast<float>(axis.sign);
-  return direction;
-}
-
-}  // namespace
-
 glm::vec3 lit_side(const Frame& frame) {
-  const auto side = static_cast<float>(frame.right.sign) * direction_of(frame.right);
-  return glm::normalize(direction_of(frame.center) + 0.55f * side + 0.42f * direction_of(frame.up));
+  const glm::dvec3 side = direction_of({frame.right.axis, 1});
+  return glm::vec3(
+      glm::normalize(direction_of(frame.center) + 0.55 * side + 0.42 * direction_of(frame.up)));
 }
 
 void SharedCamera::look(vtkRenderer& view, const Frame& frame, double radius) {
   if (camera_ == nullptr) {
     aim_camera(view, frame, radius);
     camera_ = view.GetActiveCamera();
-    const double distance = camera_->GetDistance();
-    const glm::dvec3 eye = distance * glm::dvec3(lit_side(frame));
-    camera_->SetPosition(eye.x, eye.y, eye.z);
-    const glm::dvec3 up(direction_of(frame.up));
-    camera_->SetViewUp(up.x, up.y, up.z);
-    camera_->OrthogonalizeViewUp();
   }
   view.SetActiveCamera(camera_);
+}
+
+void SharedCamera::look_at_lit_side(vtkRenderer& view, const Frame& frame, double radius) {
+  const bool is_first = camera_ == nullptr;
+  look(view, frame, radius);
+  if (!is_first) return;
+  const glm::dvec3 eye = camera_->GetDistance() * glm::dvec3(lit_side(frame));
+  camera_->SetPosition(eye.x, eye.y, eye.z);
+  const glm::dvec3 up = direction_of(frame.up);
+  camera_->SetViewUp(up.x, up.y, up.z);
+  camera_->OrthogonalizeViewUp();
 }
 
 }  // namespace shoal::viz

@@ -17,10 +17,12 @@ namespace shoal::viz {
 
 class SharedCamera {
  public:
-  // Aims the camera with the first view, as aim_camera does, but from the lit side, and gives it to
-  // the view. To be called before anything stands in the view, since labels keep the camera that
-  // they were made for.
+  // Aims the camera with the first view, as aim_camera does, and gives it to the view. To be called
+  // before anything stands in the view, since labels keep the camera that they were made for.
   void look(vtkRenderer& view, const Frame& frame, double radius);
+
+  // The same from the lit side.
+  void look_at_lit_side(vtkRenderer& view, const Frame& frame, double radius);
 
  private:
   vtkCamera* camera_ = nullptr;  // of the first view, which lives as long as the others

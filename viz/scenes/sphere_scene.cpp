@@ -2,9 +2,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
-#include <numbers>
 #include <string>
 
+#include "library/light.h"
 #include "scenes/actors.h"
 #include "scenes/axes.h"
 #include "scenes/equirect.h"
@@ -36,47 +36,30 @@ struct Look {
   glm::vec3 dominant{0.0f};  // in the frame; zero where no direction is
 };
 
-// Where the light mostly comes from: the vector that degree 1 of its luminance is. In the frame.
+// Where the light mostly comes from, in the frame.
 glm::vec3 dominant_direction(const Coefficients& radiance, const Frame& frame) {
-  if (radiance.degree < 1) return glm::vec3(0.0f);
-  const Coefficients turned = to_frame(truncate(radiance, 1), frame);
-  const auto part = [&](int m) {
-    const int i = coefficient_index(1, m);
-    return channel_of(
-        glm::dvec3(turned.channels[0][i], turned.channels[1][i], turned.channels[2][i]),
-        Channel::luminance);
-  };
-  const glm::dvec3 vector(part(1), part(-1), part(0));  // Y_11, Y_1-1, Y_10 are x, y, z
+  const glm::dvec3 vector = dominant_vector(radiance);
   const double length = glm::length(vector);
-  return length > 0.0 ? glm::vec3(vector / length) : glm::vec3(0.0f);
+  return length > 0.0 ? glm::vec3(native_to_frame(frame) * vector / length) : glm::vec3(0.0f);
 }
 
 // A square where the dominant direction lies in the flat picture.
 void mark(const Look& look, Stage& stage, const Rectangle& flat) {
   const glm::dvec3 d = glm::transpose(native_to_frame(look.frame)) * glm::dvec3(look.dominant);
   if (glm::length(d) == 0.0) return;
-  const double turn = std::atan2(d.y, d.x) / (2.0 * std::numbers::pi);
-  const double half = 0.009;
-  const double half_width = half * stage.height() / stage.width();
-  const double x = std::clamp(flat.left + flat.width() * (turn - std::floor(turn)),
-                              flat.left + half_width, flat.right - half_width);
-  const double y = std::clamp(
-      flat.top - flat.height() * std::acos(std::clamp(d.z, -1.0, 1.0)) / std::numbers::pi,
-      flat.bottom + half, flat.top - half);
-  stage.add_outline({x - half_width, y - half, x + half_width, y + half}, theme::kAccent);
+  add_mark(stage, flat, place_of(d), 0.009, theme::kAccent);
 }
 
 // The frame's half axes from where they leave the ball. What is behind the ball it hides, names
 // too.
 void add_ball_axes(Stage& stage, vtkRenderer& view) {
   for (int axis = 0; axis < 3; ++axis) {
-    for (const float sign : {1.0f, -1.0f}) {
-      glm::vec3 out(0.0f);
-      out[axis] = sign;
+    for (const int sign : {1, -1}) {
+      const glm::vec3 out(direction_of({axis, sign}));
       const glm::vec3 piece[] = {out, static_cast<float>(kAxisLength) * out};
-      if (sign > 0.0f) add_arrow(view, piece[0], piece[1], theme::kAxis, 0.012);
-      if (sign < 0.0f) add_lines(view, piece, theme::kAxis);
-      const std::string name = (sign > 0.0f ? "+" : kMinus) + std::string(1, "xyz"[axis]);
+      if (sign > 0) add_arrow(view, piece[0], piece[1], theme::kAxis, 0.012);
+      if (sign < 0) add_lines(view, piece, theme::kAxis);
+      const std::string name = (sign > 0 ? "+" : kMinus) + std::string(1, "xyz"[axis]);
       add_label(stage, view, 1.1f * piece[1], name, TextSize::small, theme::kText,
                 LabelDepth::among);
     }
@@ -90,7 +73,8 @@ void add_ball_view(const Ball& ball, const Look& look, SharedCamera& camera, Sta
   stage.add_text(area.center_x(), area.top - line, ball.title,
                  {.size = TextSize::heading, .align = TextAlign::center});
   stage.add_text(
-      area.center_x(), area.top - 2.1 * line, ball.subtitle,
+      area.center_x(), area.top - 2.1 * line,
+      stage.clauses_within(ball.subtitle, TextSize::label, area.width()),
       {.colour = theme::kDimText, .align = TextAlign::center, .max_width = area.width()});
   const Rectangle flat = stage.fit(
       {area.left, area.bottom + 0.3 * line, area.right, area.bottom + 0.31 * area.height()}, 2.0);
@@ -105,7 +89,7 @@ void add_ball_view(const Ball& ball, const Look& look, SharedCamera& camera, Sta
   stage.add_picture(flat, picture);
   mark(look, stage, flat);
   vtkRenderer& view = stage.add_view(round);
-  camera.look(view, look.frame, kSceneRadius);
+  camera.look_at_lit_side(view, look.frame, kSceneRadius);
   add_ball(view, picture, look.frame);
   add_ball_axes(stage, view);
   if (look.dominant != glm::vec3(0.0f)) {

@@ -2,12 +2,8 @@
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
-#include <vtkCellArray.h>
-#include <vtkImageData.h>
 #include <vtkLight.h>
 #include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
@@ -17,8 +13,10 @@
 #include <vtkTexture.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <utility>
+#include <string_view>
+#include <vector>
 
 #include "scenes/type.h"
 #include "scenes/vtk_data.h"
@@ -90,26 +88,15 @@ void light_view(vtkRenderer& view) {
   }
 }
 
-// With texture coordinates.
+// The whole of a texture.
 vtkSmartPointer<vtkPolyData> quad(const Rectangle& area) {
   const auto& [left, bottom, right, top] = area;
-  vtkNew<vtkPoints> points;
-  points->InsertNextPoint(left, bottom, 0.0);
-  points->InsertNextPoint(right, bottom, 0.0);
-  points->InsertNextPoint(right, top, 0.0);
-  points->InsertNextPoint(left, top, 0.0);
-  vtkNew<vtkCellArray> cells;
-  cells->InsertNextCell({0, 1, 2, 3});
-  vtkNew<vtkFloatArray> places;
-  places->SetNumberOfComponents(2);
-  for (const auto& [u, v] : {std::pair(0.f, 0.f), {1.f, 0.f}, {1.f, 1.f}, {0.f, 1.f}}) {
-    places->InsertNextTuple2(u, v);
-  }
-  auto data = vtkSmartPointer<vtkPolyData>::New();
-  data->SetPoints(points);
-  data->SetPolys(cells);
-  data->GetPointData()->SetTCoords(places);
-  return data;
+  const TexturedPoint corners[] = {{{left, bottom, 0.0}, {0.0, 0.0}},
+                                   {{right, bottom, 0.0}, {1.0, 0.0}},
+                                   {{right, top, 0.0}, {1.0, 1.0}},
+                                   {{left, top, 0.0}, {0.0, 1.0}}};
+  const std::array<vtkIdType, 4> face = {0, 1, 2, 3};
+  return textured_poly_data(corners, std::span(&face, 1));
 }
 
 }  // namespace
@@ -173,13 +160,30 @@ void Stage::set_title(const std::string& title, const std::string& subject) {
   body_.top = y - 0.5 * kMargin;
 }
 
+std::string Stage::clauses_within(const std::string& text, TextSize size, double width) const {
+  std::string kept = text;
+  while (text_width(kept, size) > width) {
+    const std::size_t end = kept.rfind("; ");
+    if (end == std::string::npos) break;
+    kept.resize(end);
+  }
+  return kept;
+}
+
 void Stage::set_caption(std::span<const std::string> lines, double max_width) {
+  const double width = std::min(max_width, body_.width());
+  std::vector<std::string> fitting;
+  for (std::string rest : lines) {
+    while (!rest.empty()) {
+      fitting.push_back(clauses_within(rest, TextSize::label, width));
+      rest.erase(0, fitting.back().size() + std::string_view("; ").size());
+    }
+  }
   const double step = line_height(TextSize::label);
-  double y = body_.bottom + step * static_cast<double>(lines.size() - 1);
+  double y = body_.bottom + step * static_cast<double>(fitting.size() - 1);
   body_.bottom = y + step + 0.3 * kMargin;
-  for (const std::string& line : lines) {
-    add_text(body_.left, y, line,
-             {.colour = theme::kDimText, .max_width = std::min(max_width, body_.width())});
+  for (const std::string& line : fitting) {
+    add_text(body_.left, y, line, {.colour = theme::kDimText, .max_width = width});
     y -= step;
   }
 }

@@ -57,9 +57,14 @@ class Stage {
   // The width of a text, as a fraction of the window's.
   [[nodiscard]] double text_width(const std::string& text, TextSize size) const;
 
+  // As many clauses of a text, parted by "; ", as have room; the first one in any case.
+  [[nodiscard]] std::string clauses_within(const std::string& text, TextSize size,
+                                           double width) const;
+
   // A title at the upper left, and what it is about, dimmer, to its right.
   void set_title(const std::string& title, const std::string& subject = {});
-  // Lines at the bottom, from the left; at most three of them are meant to be there.
+  // Lines at the bottom, from the left; at most three of them are meant to be there. One that is
+  // too long goes on in another, after a clause.
   void set_caption(std::span<const std::string> lines, double max_width = 1.0);
   void set_caption(const std::string& line, double max_width = 1.0) {
     set_caption(std::span(&line, 1), max_width);

@@ -54,6 +54,24 @@ void set_point_colours(vtkPolyData& data, std::span<const glm::vec3> colours) {
   data.GetPointData()->SetScalars(bytes);
 }
 
+vtkSmartPointer<vtkPolyData> textured_poly_data(std::span<const TexturedPoint> points,
+                                                std::span<const std::array<vtkIdType, 4>> faces) {
+  vtkNew<vtkPoints> positions;
+  vtkNew<vtkFloatArray> places;
+  places->SetNumberOfComponents(2);
+  for (const auto& [position, place] : points) {
+    positions->InsertNextPoint(position.x, position.y, position.z);
+    places->InsertNextTuple2(place.x, place.y);
+  }
+  vtkNew<vtkCellArray> cells;
+  for (const auto& face : faces) cells->InsertNextCell(4, face.data());
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(positions);
+  data->SetPolys(cells);
+  data->GetPointData()->SetTCoords(places);
+  return data;
+}
+
 vtkSmartPointer<vtkTexture> to_texture(const Picture& picture) {
   vtkNew<vtkImageData> image;
   const auto [width, height] = picture.size;

@@ -114,6 +114,17 @@ class Messages(Commands):
             done = self.expect(2, "render", "out", "--size", size, "-o", "a.png")
             self.assertIn(f"--size {size}", done.err)
 
+    def test_labels_are_coloured_as_those_of_shoal(self):
+        self.make_library(1)
+        self.write("lib/bad.hdr", "no picture")
+        wrong = ("render", "lib", "--panorama", "none", "-o", "a.png")
+        said = self.shoal_on_terminal(*wrong).out
+        self.assertIn("\x1b[33mwarning:\x1b[0m bad is left out", said)
+        self.assertIn("\x1b[31merror:\x1b[0m no panorama is named", said)
+        for environment in ({"NO_COLOR": "1"}, {"TERM": "dumb"}):
+            self.assertNotRegex(self.shoal_on_terminal(*wrong, **environment).out, support.STYLE)
+        self.assertNotIn(support.ESCAPE, self.expect(2, *wrong).err)
+
     def test_help_is_that_of_shoal(self):
         for command in ("render", "report"):
             done = self.expect(0, command, "--help")

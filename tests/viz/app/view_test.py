@@ -220,6 +220,18 @@ class View(ShoalTest):
         self.expect(0, "render", "windowed.csv", "--size", f"{WIDTH}x{HEIGHT}", "-o", "wish.png")
         self.assertEqual(saved.read_bytes(), (self.folder / "wish.png").read_bytes())
 
+    def test_two_panoramas_compared(self):
+        """--with, which is gone through, too, though --panorama leaves it out."""
+        window = self.open("light.csv", "--panorama", "light*", "--with", "sky*", "--scene", "compare")
+        window.expect_title("light at +z", "compare")
+        saved = self.folder / window.save()
+        window.press("n")
+        window.expect_title("sky over ground", "compare")
+        window.quit()
+        self.expect(0, "render", "light.csv", "--panorama", "light*", "--with", "sky*", "--scene", "compare",
+                    "--size", f"{WIDTH}x{HEIGHT}", "-o", "wish.png")
+        self.assertEqual(saved.read_bytes(), (self.folder / "wish.png").read_bytes())
+
     def test_a_scene_that_cannot_be_shown_says_why(self):
         window = self.open("light.csv")
         window.expect_title("light at +z", "lobes")

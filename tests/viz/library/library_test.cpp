@@ -209,5 +209,20 @@ TEST_F(Refusal, OfTables) {
   expect(folder / "t.npy", ErrorCode::unsupported, "csv");
 }
 
+TEST(PartOf, HasThesePanoramasInThisOrderAndWhatFailed) {
+  Library library;
+  library.title = "skies";
+  for (const char* name : {"a", "b", "c"}) library.panoramas.emplace_back().name = name;
+  library.failed.push_back({"d", "why"});
+  const std::size_t chosen[] = {2, 0};
+  const Library part = part_of(library, chosen);
+  EXPECT_EQ(part.title, "skies");
+  ASSERT_EQ(part.panoramas.size(), 2u);
+  EXPECT_EQ(part.panoramas[0].name, "c");
+  EXPECT_EQ(part.panoramas[1].name, "a");
+  ASSERT_EQ(part.failed.size(), 1u);
+  EXPECT_EQ(part.failed[0].name, "d");
+}
+
 }  // namespace
 }  // namespace shoal::viz

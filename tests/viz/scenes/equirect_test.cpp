@@ -97,5 +97,19 @@ TEST(SphereMean, OfTheSquaredBasisIsOneOverFourPi) {
   }
 }
 
+// The inverse of (sin theta cos phi, sin theta sin phi, cos theta): theta down, phi to the right.
+TEST(PlaceOf, IsWhereThePictureShowsADirection) {
+  for (const auto& [across, down] : {std::pair(0.5, 0.5), {0.75, 0.5}, {0.1, 0.2}, {0.9, 0.95}}) {
+    const double theta = kPi * down;
+    const double phi = 2.0 * kPi * across;
+    const glm::dvec2 place = place_of(
+        {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
+    EXPECT_NEAR(place.x, across, 1e-14);
+    EXPECT_NEAR(place.y, down, 1e-14);
+  }
+  EXPECT_EQ(place_of({0.0, 0.0, 1.0}).y, 0.0);
+  EXPECT_EQ(place_of({0.0, 0.0, -1.0}).y, 1.0);
+}
+
 }  // namespace
 }  // namespace shoal::viz

@@ -80,13 +80,9 @@ TEST_F(LobeExport, NodeTurnsUpAndCentreToGltfs) {
     ASSERT_EQ(std::sscanf(json.c_str() + place, "\"rotation\": [%lf, %lf, %lf, %lf]", &q.x, &q.y,
                           &q.z, &q.w),
               4);
-    const auto turned = [&](const SignedAxis& axis) {
-      glm::dvec3 direction(0.0);
-      direction[axis.axis] = axis.sign;
-      return q * direction;
-    };
-    EXPECT_LT(glm::distance(turned(alias.frame.up), {0.0, 1.0, 0.0}), 1e-6) << alias.name;
-    EXPECT_LT(glm::distance(turned(alias.frame.center), {0.0, 0.0, 1.0}), 1e-6) << alias.name;
+    EXPECT_LT(glm::distance(q * direction_of(alias.frame.up), {0.0, 1.0, 0.0}), 1e-6) << alias.name;
+    EXPECT_LT(glm::distance(q * direction_of(alias.frame.center), {0.0, 0.0, 1.0}), 1e-6)
+        << alias.name;
   }
 }
 

@@ -13,12 +13,6 @@
 namespace shoal::viz {
 namespace {
 
-glm::vec3 direction_of(const SignedAxis& axis) {
-  glm::vec3 direction(0.0f);
-  direction[axis.axis] = static_cast<float>(axis.sign);
-  return direction;
-}
-
 // A point of the picture, by the fractions of its width and height: sphere/conventions.h.
 glm::dvec3 native_direction(double across, double down) {
   const double theta = std::numbers::pi * down;
@@ -45,11 +39,12 @@ TEST(Lobe, PointsInEveryFrameWhereTheLightIs) {
       SceneSettings settings;
       settings.frame = alias.frame;
       const Lobe lobe = make_lobe(panorama, settings, 16);
-      EXPECT_EQ(lobe.largest_direction, direction_of(place.axis)) << alias.name;
+      const glm::vec3 expected(direction_of(place.axis));
+      EXPECT_EQ(lobe.largest_direction, expected) << alias.name;
       const auto farthest = std::max_element(
           lobe.mesh.positions.begin(), lobe.mesh.positions.end(),
           [](const glm::vec3& a, const glm::vec3& b) { return glm::length(a) < glm::length(b); });
-      EXPECT_NEAR(glm::distance(*farthest, direction_of(place.axis)), 0.0, 1e-6) << alias.name;
+      EXPECT_NEAR(glm::distance(*farthest, expected), 0.0, 1e-6) << alias.name;
     }
   }
 }

@@ -55,6 +55,18 @@ TEST(Numbers, HaveThreeDigits) {
   EXPECT_EQ(text_of(2.5e-6), "2.5e-06");
 }
 
+TEST(Numbers, OfSharesArePercent) { EXPECT_EQ(percent_of(0.125), "12.5 %"); }
+
+// A heading has half a line above it, but at the top.
+TEST(Figures, TakeTheHeightThatIsTold) {
+  auto window = make_offscreen_window({640, 360});
+  if (!window) GTEST_SKIP() << window.error().text();
+  Stage stage(**window);
+  const FigureRow rows[] = {{"heading", ""}, {"name", "1"}, {"another", ""}, {"name", "2"}};
+  const double below = add_figures(stage, {0.1, 0.1, 0.5, 0.9}, rows);
+  EXPECT_NEAR(0.9 - below, figures_height(stage, rows), 1e-12);
+}
+
 TEST(Stage, TypeGrowsWithTheWindowAndStaysLegible) {
   auto window = make_offscreen_window({1280, 720});
   if (!window) GTEST_SKIP() << window.error().text();
@@ -85,6 +97,54 @@ TEST(Stage, TitleAndCaptionLeaveTheBodyFree) {
       ASSERT_EQ(pixel(picture, (column + 0.5) / 1280, y), background) << column << ' ' << row;
     }
   }
+}
+
+TEST(Stage, KeepsTheClausesThatHaveRoom) {
+  auto window = make_offscreen_window({640, 360});
+  if (!window) GTEST_SKIP() << window.error().text();
+  const Stage stage(**window);
+  const auto within = [&](const std::string& text, const std::string& as_wide_as) {
+    return stage.clauses_within(text, TextSize::label,
+                                stage.text_width(as_wide_as, TextSize::label));
+  };
+  EXPECT_EQ(within("one; two; three", "one; two; three"), "one; two; three");
+  EXPECT_EQ(within("one; two; three", "one; two; thr"), "one; two");
+  EXPECT_EQ(within("one; two; three", "one; tw"), "one");
+  EXPECT_EQ(within("one; two; three", "o"), "one");
+}
+
+// A caption too long for its width goes on in another line, which the body makes room for.
+TEST(Stage, CaptionsGoOnInAnotherLine) {
+  auto window = make_offscreen_window({640, 360});
+  if (!window) GTEST_SKIP() << window.error().text();
+  Stage one(**window);
+  const double width = 1.5 * one.text_width("a clause; another", TextSize::label);
+  one.set_caption("a clause; another", width);
+  Stage two(**window);
+  two.set_caption("a clause; another; a third; a fourth", width);
+  EXPECT_NEAR(two.body().bottom - one.body().bottom, two.line_height(TextSize::label), 1e-12);
+}
+
+// The square's outline, a pixel thick, around the place, or inside where that is at the edge.
+TEST(Marks, StandAroundTheirPlaceAndInside) {
+  auto window = make_offscreen_window({200, 100});
+  if (!window) GTEST_SKIP() << window.error().text();
+  Stage stage(**window);
+  const Rectangle area{0.1, 0.2, 0.9, 0.8};  // 160 x 60 pixels from (20, 20)
+  add_mark(stage, area, {0.25, 0.5}, 0.1, {1.0f, 0.0f, 0.0f});
+  add_mark(stage, area, {1.0, 0.0}, 0.1, {0.0f, 1.0f, 0.0f});
+  const Picture picture = take_picture(**window);
+  // Around pixel (60, 50) reaching 10 to all sides, and the last 20 of the upper right corner.
+  const std::array red{255, 0, 0};
+  const std::array green{0, 255, 0};
+  EXPECT_EQ(pixel(picture, 50.5 / 200, 0.5), red);
+  EXPECT_EQ(pixel(picture, 69.5 / 200, 0.5), red);
+  EXPECT_EQ(pixel(picture, 0.3, 0.405), red);
+  EXPECT_EQ(pixel(picture, 0.3, 0.595), red);
+  EXPECT_NE(pixel(picture, 0.3, 0.5), red);
+  EXPECT_EQ(pixel(picture, 160.5 / 200, 0.7), green);
+  EXPECT_EQ(pixel(picture, 179.5 / 200, 0.7), green);
+  EXPECT_NE(pixel(picture, 181.0 / 200, 0.7), green);
 }
 
 // What is added later lies on top, and the flat picture of four colours stands as it was made.

@@ -1,7 +1,6 @@
 // Light as arrays of numbers: decoded, measured, painted.
 
 const kLuminance = [0.2126, 0.7152, 0.0722];
-const kMiddleGrey = 0.18;
 const kFigureRows = 64;
 
 function bytesOfBase64(text) {
@@ -93,10 +92,6 @@ function irradianceFigures(radiance, degree) {
   });
   const contrast = maximum + minimum > 0 ? (maximum - minimum) / (maximum + minimum) : null;
   return {minimum, maximum, negative, contrast};
-}
-
-function automaticExposure(meanLuminance) {
-  return meanLuminance > 0 ? kMiddleGrey / meanLuminance : 1;
 }
 
 // Eight-bit sRGB of linear values in [0, 1] by a table of 4096 steps; it errs by 0.84 at most.

@@ -282,7 +282,7 @@ class List {
     }
     const ball = pair.appendChild(element('canvas'));
     ball.width = ball.height = 60;
-    paintBall(ball, panorama.ball, automaticExposure(panorama.figures.mean));
+    paintBall(ball, panorama.ball, panorama.exposure);
     return pair;
   }
 

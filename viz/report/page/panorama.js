@@ -129,7 +129,7 @@ class PanoramaView {
 
   exposure() {
     const stops = Number(byId('exposure').value);
-    return 2 ** stops * (byId('automatic').checked ? automaticExposure(this.entry.figures.mean) : 1);
+    return 2 ** stops * (byId('automatic').checked ? this.entry.exposure : 1);
   }
 
   showPictures() {

@@ -1,0 +1,47 @@
+#include "library/light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+namespace shoal::viz {
+
+glm::dvec3 colour_at(const Coefficients& coefficients, int i) {
+  return {coefficients.channels[0][i], coefficients.channels[1][i], coefficients.channels[2][i]};
+}
+
+glm::dvec3 mean_of(const Coefficients& coefficients) {
+  return colour_at(coefficients, 0) / std::sqrt(4.0 * std::numbers::pi);
+}
+
+glm::dvec3 dominant_vector(const Coefficients& radiance) {
+  if (radiance.degree < 1) return glm::dvec3(0.0);
+  const auto part = [&](int m) {
+    return glm::dot(kLuminance, colour_at(radiance, coefficient_index(1, m)));
+  };
+  return {part(1), part(-1), part(0)};  // Y_11, Y_1-1, Y_10 are x, y, z times one factor
+}
+
+std::optional<double> dominance_of(const Coefficients& radiance) {
+  const double whole = glm::dot(kLuminance, colour_at(radiance, 0));
+  if (radiance.degree < 1 || whole <= 0.0) return std::nullopt;
+  return glm::length(dominant_vector(radiance)) / (std::numbers::sqrt3 * whole);
+}
+
+double automatic_exposure(const Coefficients& radiance, double stops) {
+  const double mean = glm::dot(kLuminance, mean_of(radiance));
+  const double automatic = std::isfinite(mean) && mean > 0.0 ? kMeanTone / mean : 1.0;
+  return automatic * std::exp2(stops);
+}
+
+double srgb_encoded(double linear) {
+  const double x = std::clamp(linear, 0.0, 1.0);
+  return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
+}
+
+double srgb_decoded(double encoded) {
+  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+}  // namespace shoal::viz

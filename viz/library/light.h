@@ -1,0 +1,42 @@
+// What light is to the eye: how bright, from where, and how scenes and reports make pictures of it.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "sphere/coefficients.h"
+
+namespace shoal::viz {
+
+// The luminance of linear Rec.709 (ITU-R BT.709).
+inline constexpr glm::dvec3 kLuminance{0.2126, 0.7152, 0.0722};
+
+// Coefficient i of all channels. Precondition: there is one.
+[[nodiscard]] glm::dvec3 colour_at(const Coefficients& coefficients, int i);
+
+// The mean over the sphere, RGB: L_00 / sqrt(4 pi).
+[[nodiscard]] glm::dvec3 mean_of(const Coefficients& coefficients);
+
+// The vector that degree 1 of the luminance is, in the coefficients' frame: it points to where the
+// light mostly comes from. Zero without degree 1.
+[[nodiscard]] glm::dvec3 dominant_vector(const Coefficients& radiance);
+
+// |dominant_vector| / (sqrt 3 L_00) of the luminance: 0 for light that comes alike from opposite
+// sides, 1 for one point. Not without degree 1, nor where the mean is not positive.
+[[nodiscard]] std::optional<double> dominance_of(const Coefficients& radiance);
+
+// What the automatic exposure brings a panorama's mean luminance to. A photographer's mid grey,
+// 0.18, would be for a scene whose highlights are a few times its mean; the mean of a panorama
+// holds its sun and lamps, and what is beside them lies well below it.
+inline constexpr double kMeanTone = 0.3;
+
+// The exposure that does so, times 2^stops; 2^stops where the mean is not positive.
+[[nodiscard]] double automatic_exposure(const Coefficients& radiance, double stops = 0.0);
+
+// The sRGB curve (IEC 61966-2-1) of a linear value, clamped to 0..1.
+[[nodiscard]] double srgb_encoded(double linear);
+
+// The value that has this code.
+[[nodiscard]] double srgb_decoded(double encoded);
+
+}  // namespace shoal::viz
