@@ -28,18 +28,26 @@ bool is_diagonal(const glm::dmat3& matrix) {
 
 }  // namespace
 
+double luminance(const glm::dvec3& rgb) {
+  return kLuminance.x * rgb.x + kLuminance.y * rgb.y + kLuminance.z * rgb.z;
+}
+
+double luminance(const Coefficients& coefficients, int i) {
+  return luminance(glm::dvec3(coefficients.channels[0][i], coefficients.channels[1][i],
+                              coefficients.channels[2][i]));
+}
+
 Result<glm::dmat3> combined_matrix(const ColourOperations& operations) {
   glm::dmat3 combined = operations.matrix;
   if (operations.white) {
     const glm::dvec3 white = *operations.white;
-    const double luminance =
-        kLuminance.x * white.x + kLuminance.y * white.y + kLuminance.z * white.z;
+    const double grey = luminance(white);
     for (int c = 0; c < 3; ++c) {
       if (!(white[c] > 0.0) || !std::isfinite(white[c])) {
         return Error{ErrorCode::usage, "the white's components are not all positive and finite", "",
                      "give the linear Rec.709 colour that shall become grey"};
       }
-      combined[c] *= luminance / white[c];
+      combined[c] *= grey / white[c];
     }
   }
   // long double's exp2 is the same on every x86-64; double's depends on whether the CPU fuses.

@@ -10,6 +10,12 @@
 
 namespace shoal {
 
+// Luminance of linear Rec.709 R, G, B: 0.2126 R + 0.7152 G + 0.0722 B (ITU-R BT.709-6, item 3.2).
+[[nodiscard]] double luminance(const glm::dvec3& rgb);
+
+// The luminance of coefficient i.
+[[nodiscard]] double luminance(const Coefficients& coefficients, int i);
+
 // What a panorama's colours go through, in this order: white balance, matrix, scale and exposure.
 struct ColourOperations {
   double exposure_stops = 0.0;        // times 2^stops

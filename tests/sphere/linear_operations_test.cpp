@@ -14,6 +14,19 @@ namespace {
 // Columns: where red, green and blue go.
 const glm::dmat3 kMix(0.5, 0.25, 0.125, -0.5, 1.0, 2.0, 0.0, 0.75, 1.5);
 
+// Rec.709's weights sum to 1, so grey is its own luminance; luminance is linear.
+TEST(Luminance, IsRec709) {
+  EXPECT_DOUBLE_EQ(luminance(glm::dvec3(3.0)), 3.0);
+  EXPECT_DOUBLE_EQ(luminance(glm::dvec3(1.0, 0.0, 0.0)), 0.2126);
+  EXPECT_DOUBLE_EQ(luminance(glm::dvec3(0.0, 0.0, 1.0)), 0.0722);
+  const Coefficients coefficients = test::random_coefficients(2);
+  for (int i = 0; i < 9; ++i) {
+    EXPECT_DOUBLE_EQ(luminance(coefficients, i), 0.2126 * coefficients.channels[0][i] +
+                                                     0.7152 * coefficients.channels[1][i] +
+                                                     0.0722 * coefficients.channels[2][i]);
+  }
+}
+
 TEST(ColourOperations, NothingAskedIsTheExactIdentity) {
   const auto matrix = combined_matrix({});
   ASSERT_TRUE(matrix.ok());
