@@ -40,7 +40,7 @@ LIBRARIES = {
     r"libdeflate": r"(engine/image|viz/report)/",
     r"png\.h": r"(engine/image|viz/window)/",
     r"sqlite3": r"(engine/batch|viz/library)/",
-    r"yaml-cpp/": r"engine/batch/",
+    r"yaml-cpp/": r"engine/(batch|output)/",
     r"json/": r"viz/library/",
     r"CLI/": r"(engine|viz)/app/",
     r"(vtk|X11/)": r"viz/(window|scenes|app)/",

@@ -1,4 +1,4 @@
-// NumPy's array file, format 1.0: numpy/lib/format.py, "Format Version 1.0".
+// Tables as one array of NumPy's.
 #include <fmt/format.h>
 
 #include <bit>
@@ -8,6 +8,7 @@
 #include "core/atomic_file.h"
 #include "core/content_hash.h"
 #include "output/hashed_file.h"
+#include "output/npy_format.h"
 #include "output/table_formats.h"
 #include "output/text_quoting.h"
 
@@ -17,25 +18,15 @@ namespace {
 static_assert(std::endian::native == std::endian::little,
               "arrays are written as they lie in memory, and the header says '<f8'");
 
-// A multiple of 64, so that the array is aligned when mapped, and room for any count.
-constexpr std::size_t kHeaderSize = 128;
-constexpr std::size_t kPreambleSize = 10;  // magic, version, length of the dictionary
-
-std::string npy_header(std::uint64_t records, int coefficients) {
-  constexpr auto kDictionarySize = static_cast<unsigned char>(kHeaderSize - kPreambleSize);
-  std::string header = "\x93NUMPY";
-  header += {'\x01', '\x00', static_cast<char>(kDictionarySize), '\x00'};
-  header += fmt::format("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, {}, {}), }}",
-                        records, coefficients, kChannelCount);
-  header.resize(kHeaderSize - 1, ' ');
-  return header + '\n';
+std::string table_header(std::uint64_t records, int coefficients) {
+  return npy_header("<f8", fmt::format("({}, {}, {})", records, coefficients, kChannelCount));
 }
 
 class NpyTable : public TableWriter {
  public:
   NpyTable(std::filesystem::path path, AtomicFile array, HashedFile names)
       : path_(std::move(path)), array_(std::move(array)), names_(std::move(names)) {
-    numbers_text_ = npy_header(0, 0);
+    numbers_text_ = table_header(0, 0);
     names_text_ = "index,panorama,variant,quantity\n";
   }
 
@@ -57,7 +48,7 @@ class NpyTable : public TableWriter {
 
   Result<std::vector<WrittenFile>> commit() override {
     SHOAL_RETURN_IF_ERROR(drain());
-    const std::string header = npy_header(count_, count_ == 0 ? 0 : coefficient_count(degree_));
+    const std::string header = table_header(count_, count_ == 0 ? 0 : coefficient_count(degree_));
     SHOAL_RETURN_IF_ERROR(array_.write_at(0, std::as_bytes(std::span(header))));
     SHOAL_ASSIGN_OR_RETURN(names, names_.commit());
     SHOAL_RETURN_IF_ERROR(array_.commit());
