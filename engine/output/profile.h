@@ -44,6 +44,13 @@ enum class ProfileForm {
   npy,   // one array of NumPy's: (count, 3) interleaved, (3, count) planar
 };
 
+// What is written of the light.
+enum class ProfileLight {
+  full,              // its coefficients
+  zh3,               // degree 1 and a quadratic zonal coefficient, fitted to degree 2
+  zh3_hallucinated,  // degree 1, the zonal coefficient guessed from it (sphere/zh3.h)
+};
+
 // What is done to radiance coefficients. Number i, of degree l, is
 //   L_i (in the frame) * gain of the quantity * sign * scale[l] * constant of Y_i.
 struct ProfileConvention {
@@ -52,6 +59,7 @@ struct ProfileConvention {
   Quantity quantity = Quantity::radiance;
   BasisConstant basis = BasisConstant::separate;
   std::vector<double> scale{1.0};  // a factor for each degree, or one for all
+  ProfileLight light = ProfileLight::full;
 };
 
 // The keys of a convention that a choice of an option replaces.
@@ -61,6 +69,7 @@ struct ConventionChange {
   std::optional<Quantity> quantity;
   std::optional<BasisConstant> basis;
   std::optional<std::vector<double>> scale;
+  std::optional<ProfileLight> light;
 };
 
 // Where consumers differ: one of several words, each with what it changes.

@@ -96,6 +96,7 @@ ProfileConvention chosen_convention(const Profile& profile) {
     replace(convention.quantity, change.quantity);
     replace(convention.basis, change.basis);
     replace(convention.scale, change.scale);
+    replace(convention.light, change.light);
   }
   replace(convention.frame, profile.frame);
   return convention;

@@ -19,7 +19,8 @@ constexpr std::string_view kTermHint = "terms look like sh6, 3*sh6, -sh1.r/2, or
 // Reads a sum of products from left to right; the first fault stays.
 class SumReader {
  public:
-  SumReader(std::string_view text, int count) : text_(text), count_(count) {}
+  SumReader(std::string_view text, int count, Zonal zonal)
+      : text_(text), count_(count), zonal_(zonal) {}
 
   ParsedText<PackedNumber> read() {
     ParsedText<PackedNumber> parsed;
@@ -74,7 +75,7 @@ class SumReader {
     skip_blanks();
     const std::size_t begin = at_;
     const std::string_view rest = text_.substr(at_);
-    if (rest.starts_with("sh")) return read_coefficient(term, divides);
+    if (rest.starts_with("sh") || rest.starts_with("zh")) return read_coefficient(term, divides);
     double value = std::numbers::pi;
     if (rest.starts_with("pi")) {
       at_ += 2;
@@ -89,16 +90,29 @@ class SumReader {
     term.factor = divides ? term.factor / value : term.factor * value;
   }
 
-  void read_coefficient(PackedTerm& term, bool divides) {
-    const std::size_t begin = at_;
+  int take_zonal() {
+    if (zonal_ == Zonal::absent) fail("zh is for light: zh3 and zh3-hallucinated only", at_);
     at_ += 2;
+    return zonal_ == Zonal::present ? kZonalCoefficient : kNoCoefficient;
+  }
+
+  // Of shN, or kNoCoefficient.
+  int take_index() {
     int index = 0;
     const auto [end, error] =
-        std::from_chars(text_.data() + at_, text_.data() + text_.size(), index);
+        std::from_chars(text_.data() + at_ + 2, text_.data() + text_.size(), index);
     if (error != std::errc() || index < 0 || index >= count_) {
-      return fail(fmt::format("the coefficients are sh0 to sh{}", count_ - 1), begin);
+      fail(fmt::format("the coefficients are sh0 to sh{}", count_ - 1), at_);
+      return kNoCoefficient;
     }
     at_ = static_cast<std::size_t>(end - text_.data());
+    return index;
+  }
+
+  void read_coefficient(PackedTerm& term, bool divides) {
+    const std::size_t begin = at_;
+    const int index = text_[at_] == 'z' ? take_zonal() : take_index();
+    if (index == kNoCoefficient) return;
     if (divides || term.coefficient != kNoCoefficient) {
       return fail("a term is a coefficient times numbers", begin);
     }
@@ -114,6 +128,7 @@ class SumReader {
 
   std::string_view text_;
   int count_;
+  Zonal zonal_;
   std::size_t at_ = 0;
   std::string message_;
   std::size_t fault_at_ = 0;
@@ -129,12 +144,12 @@ bool PackedList::has_channels() const {
   });
 }
 
-ParsedText<PackedNumber> parse_packed_number(std::string_view text, int count) {
-  return SumReader(text, count).read();
+ParsedText<PackedNumber> parse_packed_number(std::string_view text, int count, Zonal zonal) {
+  return SumReader(text, count, zonal).read();
 }
 
 ParsedText<double> parse_factor(std::string_view text) {
-  const ParsedText<PackedNumber> sum = SumReader(text, 0).read();
+  const ParsedText<PackedNumber> sum = SumReader(text, 0, Zonal::absent).read();
   ParsedText<double> parsed;
   parsed.message = sum.message;
   parsed.offset = sum.offset;

@@ -18,11 +18,6 @@ namespace {
 constexpr std::string_view kVersion = "1";
 constexpr int kBarePolynomialDegree = 2;
 
-constexpr std::string_view kConventionKeys[] = {"frame", "sign", "quantity", "basis", "scale"};
-constexpr std::string_view kKeys[] = {
-    "shoal_profile", "title",     "consumer", "frame",    "sign",    "quantity", "basis",
-    "scale",         "degree",    "order",    "channels", "packing", "number",   "separator",
-    "form",          "extension", "text",     "options",  "sources", "unknown"};
 constexpr std::string_view kChoiceKeys[] = {"default", "choices"};
 constexpr std::string_view kFrameKeys[] = {"center", "right", "up"};
 
@@ -61,6 +56,9 @@ class ProfileReader {
   [[nodiscard]] const YamlEntry* find(std::string_view key) const { return find_entry(top_, key); }
   [[nodiscard]] int coefficient_limit() const {
     return coefficient_count(profile_.degree.value_or(kMaxDegree));
+  }
+  [[nodiscard]] Zonal zonal() const {
+    return profile_.convention.light == ProfileLight::full ? Zonal::absent : Zonal::present;
   }
 
   ProfileYaml yaml_;
@@ -182,6 +180,10 @@ Result<ConventionChange> ProfileReader::change(const Entries& from) const {
   SHOAL_RETURN_IF_ERROR(read_word(from, "sign", kSigns, change.sign));
   SHOAL_RETURN_IF_ERROR(read_word(from, "quantity", kQuantities, change.quantity));
   SHOAL_RETURN_IF_ERROR(read_word(from, "basis", kBases, change.basis));
+  SHOAL_RETURN_IF_ERROR(read_word(from, "light", kLights, change.light));
+  if (change.light.value_or(ProfileLight::full) != ProfileLight::full && profile_.degree != 2) {
+    return yaml_.fault(find_entry(from, "light")->value, "ZH3 is made of degree 2", "degree: 2");
+  }
   if (change.basis == BasisConstant::premultiplied &&
       profile_.degree.value_or(kMaxDegree) > kBarePolynomialDegree) {
     return yaml_.fault(find_entry(from, "basis")->value,
@@ -199,6 +201,7 @@ Status ProfileReader::read_convention() {
   convention.quantity = *base.quantity;
   convention.basis = base.basis.value_or(convention.basis);
   convention.scale = base.scale.value_or(convention.scale);
+  convention.light = base.light.value_or(convention.light);
   return {};
 }
 
@@ -252,7 +255,7 @@ Result<PackedList> ProfileReader::list(const YamlEntry& entry) const {
   SHOAL_ASSIGN_OR_RETURN(nodes, yaml_.items(entry));
   for (const YAML::Node& node : nodes) {
     SHOAL_ASSIGN_OR_RETURN(text, yaml_.scalar({"a number of packing", entry.key_node, node}));
-    ParsedText<PackedNumber> number = parse_packed_number(text, coefficient_limit());
+    ParsedText<PackedNumber> number = parse_packed_number(text, coefficient_limit(), zonal());
     if (!number.ok()) return yaml_.fault(node, number.message, number.hint, number.offset);
     list.numbers.push_back(std::move(number.value));
   }

@@ -12,6 +12,8 @@ namespace shoal {
 
 inline constexpr int kNoCoefficient = -1;
 inline constexpr int kEachChannel = -1;
+// The place of the quadratic zonal coefficient of ZH3 behind the nine coefficients of degree 2.
+inline constexpr int kZonalCoefficient = 9;
 
 // factor, or factor * coefficient of a channel.
 struct PackedTerm {
@@ -44,8 +46,11 @@ struct ParsedText {
 };
 
 // "sh0 - sh6", "3 * sh6", "-sh1.r / 2", "1": terms joined by + and -, each a product of numbers,
-// pi, and at most one coefficient. Coefficients go from sh0 to sh8 and on below `count`.
-[[nodiscard]] ParsedText<PackedNumber> parse_packed_number(std::string_view text, int count);
+// pi, and at most one coefficient. Coefficients go from sh0 to sh8 and on below `count`; "zh" is
+// kZonalCoefficient where there is one.
+enum class Zonal { absent, present };
+[[nodiscard]] ParsedText<PackedNumber> parse_packed_number(std::string_view text, int count,
+                                                           Zonal zonal = Zonal::absent);
 
 // A product of numbers and pi: "1/pi", "2*pi/3", "0.5". Not zero.
 [[nodiscard]] ParsedText<double> parse_factor(std::string_view text);

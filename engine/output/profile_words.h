@@ -9,6 +9,14 @@
 
 namespace shoal {
 
+// The keys of a profile, and those that a choice of an option may replace.
+inline constexpr std::string_view kConventionKeys[] = {"frame", "sign",  "quantity",
+                                                       "basis", "scale", "light"};
+inline constexpr std::string_view kKeys[] = {
+    "shoal_profile", "title", "consumer",  "frame", "sign",     "quantity", "basis",
+    "scale",         "light", "degree",    "order", "channels", "packing",  "number",
+    "separator",     "form",  "extension", "text",  "options",  "sources",  "unknown"};
+
 template <typename E>
 struct Word {
   std::string_view name;
@@ -22,6 +30,10 @@ inline constexpr Word<Quantity> kQuantities[] = {
     {"irradiance_over_pi", Quantity::irradiance_over_pi}};
 inline constexpr Word<BasisConstant> kBases[] = {{"separate", BasisConstant::separate},
                                                  {"premultiplied", BasisConstant::premultiplied}};
+inline constexpr Word<ProfileLight> kLights[] = {
+    {"full", ProfileLight::full},
+    {"zh3", ProfileLight::zh3},
+    {"zh3-hallucinated", ProfileLight::zh3_hallucinated}};
 inline constexpr Word<ChannelPacking> kChannels[] = {{"interleaved", ChannelPacking::interleaved},
                                                      {"planar", ChannelPacking::planar}};
 inline constexpr Word<NumberType> kNumbers[] = {{"float32", NumberType::float32},

@@ -14,6 +14,7 @@
 #include "output/profile_words.h"
 #include "output/text_quoting.h"
 #include "sphere/linear_operations.h"
+#include "sphere/zh3.h"
 
 namespace shoal {
 namespace {
@@ -31,10 +32,22 @@ double polynomial_constant(int i) {
   return std::sqrt(15.0 / kPi) / (i == 8 ? 4.0 : 2.0);
 }
 
+// The light as ZH3 holds it, and its quadratic zonal coefficient.
+Coefficients as_zh3(const Coefficients& light, ProfileLight form, glm::dvec3& zonal) {
+  const QuadraticZonal reduced =
+      form == ProfileLight::zh3 ? fit_zh3(light) : hallucinate_zh3(light);
+  zonal = reduced.quadratic;
+  return expand(reduced);
+}
+
+// To degree L in index order; where the convention's light is ZH3, its zonal coefficient behind.
 Coefficients in_convention(const Profile& profile, const Coefficients& native) {
   const ProfileConvention convention = chosen_convention(profile);
   Coefficients result = truncate(native, profile.degree.value_or(native.degree));
-  result = apply_quantity(to_frame(result, convention.frame), convention.quantity);
+  result = to_frame(result, convention.frame);
+  glm::dvec3 zonal(0.0);
+  if (convention.light != ProfileLight::full) result = as_zh3(result, convention.light, zonal);
+  result = apply_quantity(std::move(result), convention.quantity);
   for (int l = 0; l <= result.degree; ++l) {
     const double scale = convention.scale.size() == 1 ? convention.scale[0] : convention.scale[l];
     for (int m = -l; m <= l; ++m) {
@@ -45,6 +58,12 @@ Coefficients in_convention(const Profile& profile, const Coefficients& native) {
       for (auto& channel : result.channels) channel[i] *= factor;
     }
   }
+  if (convention.light == ProfileLight::full) return result;
+  static_assert(kZonalCoefficient == coefficient_count(2));
+  double factor = quantity_gain(convention.quantity, 2) * convention.scale.back();
+  // The zonal function is a Y_20 about another axis.
+  if (convention.basis == BasisConstant::premultiplied) factor *= polynomial_constant(6);
+  for (int c = 0; c < kChannelCount; ++c) result.channels[c].push_back(factor * zonal[c]);
   return result;
 }
 

@@ -110,7 +110,7 @@ std::string name_of_case(const testing::TestParamInfo<Consumer>& info) {
 INSTANTIATE_TEST_SUITE_P(All, ProfileConsumers, testing::ValuesIn(consumers()), name_of_case);
 
 TEST(ProfileConsumersTable, HasEveryBuiltInProfile) {
-  std::set<std::string> tested;
+  std::set<std::string> tested = {"zh3", "l1-nonlinear"};  // profile_models_test.cpp
   for (const Consumer& consumer : consumers()) tested.insert(consumer.name);
   std::set<std::string> names(builtin_profile_names().begin(), builtin_profile_names().end());
   EXPECT_EQ(tested, names);

@@ -41,7 +41,7 @@ constexpr const char* kGlslMain =
 
 TEST(ProfileShaders, GlslCompilesForDesktopAndEs) {
   SHOAL_REQUIRE_GLSLANG();
-  for (const std::string profile : {"glsl", "ramamoorthi"}) {
+  for (const std::string profile : {"glsl", "ramamoorthi", "zh3", "l1-nonlinear"}) {
     expect_compiles("#version 330\n" + snippet(profile) + kGlslMain, "a.frag", "");
     expect_compiles("#version 300 es\nprecision highp float;\n" + snippet(profile) + kGlslMain,
                     "a.frag", "");

@@ -1,0 +1,61 @@
+// The lights that stand out of panoramas: their suns and their dominant lights.
+//
+// CSV: one row a panorama, RFC 4180 quoting, "\n" line ends, numbers like C's "%.17g"; empty where
+// there is no such light. Directions point to the light, in the record's frame; colours are linear
+// Rec.709.
+//   panorama
+//   sun_x sun_y sun_z         the sun found in the pixels (sphere/sun.h): unit direction
+//   sun_radius                degrees of arc, as the radius of a disk in a manifest
+//   sun_r sun_g sun_b         irradiance of a surface that faces it
+//   sun_radiance_r .. _b      mean radiance
+//   sun_solid_angle sun_share sun_texels sun_level
+//   dominant_x .. _z          the directional light of sphere/dominant_light.h, fitted to all degrees
+//   dominant_r .. _b          irradiance of a surface that faces it
+//   directionality dominant_energy
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "output/coefficient_table.h"
+#include "output/hashed_file.h"
+#include "sphere/analytic_lights.h"
+#include "sphere/frame.h"
+#include "sphere/sun.h"
+
+namespace shoal {
+
+struct LightRecord {
+  struct Dominant {
+    DirectionalLight light;
+    double directionality = 0.0;
+    double energy_share = 0.0;
+  };
+  std::string panorama;
+  std::optional<Sun> sun;  // directions in the native frame
+  std::optional<Dominant> dominant;
+  Frame frame;  // that they are told in
+};
+
+[[nodiscard]] std::string light_csv_header();
+[[nodiscard]] std::string light_csv_row(const LightRecord& record);
+
+// The CSV of a run, in a file that appears whole or not at all.
+class LightTable {
+ public:
+  static Result<LightTable> create(const std::filesystem::path& path);
+
+  Status append(const LightRecord& record);
+  Result<WrittenFile> commit();
+
+ private:
+  explicit LightTable(HashedFile file) : file_(std::move(file)) {}
+  Status drain();
+
+  HashedFile file_;
+  std::string buffer_ = light_csv_header();
+};
+
+}  // namespace shoal
