@@ -23,6 +23,8 @@ void add_check_options(CLI::App& command, Action& action);
 void add_init_options(CLI::App& command, Action& action);
 void add_verify_options(CLI::App& command, Action& action);
 void add_preview_options(CLI::App& command, Action& action);
+void add_profiles_options(CLI::App& command, Action& action);
+void add_quality_options(CLI::App& command, Action& action);
 void add_targets_options(CLI::App& command, Action& action);
 
 }  // namespace shoal

@@ -21,6 +21,9 @@ void add_once(std::vector<T>& list, T value) {
 
 // What the manifest's reader has made sure of for the manifest as it stands.
 Status check_degrees(const Manifest& manifest) {
+  for (const ExportRequest& request : manifest.exports) {
+    SHOAL_RETURN_IF_ERROR(check_export_degree(manifest, request));
+  }
   if (std::ranges::find(manifest.tables, TableFormat::npy) == manifest.tables.end()) return {};
   const auto degree = [](const PanoramaEntry& entry) { return entry.settings->projection.degree; };
   const bool differ = std::ranges::adjacent_find(manifest.entries, std::not_equal_to{}, degree) !=
@@ -34,6 +37,7 @@ EntrySettings overridden(const ComputeChoice& choice, EntrySettings settings) {
   ProjectionSettings& projection = settings.projection;
   if (choice.degree) projection.degree = *choice.degree;
   if (choice.quadrature) projection.quadrature = *choice.quadrature;
+  if (choice.layout) projection.layout = *choice.layout;
   projection.arithmetic = choice.arithmetic;
   if (choice.frame) settings.linear.frame = choice.frame;
   return settings;
@@ -51,6 +55,11 @@ void add_compute_options(CLI::App& command, ComputeOptions& options) {
   command.add_option("--degree", options.degree, "Highest degree L, 0 to 64")
       ->check(CLI::Range(0, kMaxDegree));
   command.add_option("--quadrature", options.quadrature, "texel, midpoint or fejer");
+  command.add_option("--layout", options.layout,
+                     "Layout of the pictures: auto, equirect (the default), cube-vertical-cross, "
+                     "cube-horizontal-cross, cube-vertical-strip, cube-horizontal-strip, "
+                     "cube-faces, cube-openexr, angular, mirror-ball, octahedral or "
+                     "octahedral-equal-area");
   command
       .add_option("--quantity", options.quantities,
                   "radiance, irradiance or irradiance-over-pi; may be repeated")
@@ -73,6 +82,10 @@ Result<ComputeChoice> understand(const ComputeOptions& options) {
                    "it is used by itself where a file's border pixels lie on the poles"};
     }
     choice.quadrature = quadrature;
+  }
+  if (!options.layout.empty()) {
+    SHOAL_ASSIGN_OR_RETURN(layout, parse_layout(options.layout));
+    choice.layout = layout;
   }
   for (const std::string& name : options.quantities) {
     SHOAL_ASSIGN_OR_RETURN(quantity, parse_quantity(name));

@@ -12,6 +12,7 @@
 #include "output/coefficient_table.h"
 #include "sphere/frame.h"
 #include "sphere/irradiance.h"
+#include "sphere/layout.h"
 #include "sphere/quadrature.h"
 
 namespace shoal {
@@ -23,6 +24,7 @@ struct ComputeOptions {
   bool reference = false;
   std::optional<int> degree;
   std::string quadrature;
+  std::string layout;
   std::vector<std::string> quantities;
   std::string frame;
   std::vector<std::string> formats;
@@ -35,6 +37,7 @@ struct ComputeChoice {
   int threads = 1;
   std::optional<int> degree;
   std::optional<Quadrature> quadrature;
+  std::optional<Layout> layout;
   std::vector<Quantity> quantities;
   std::optional<Frame> frame;
   std::vector<TableFormat> formats;

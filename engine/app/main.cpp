@@ -29,9 +29,12 @@ struct Command {
   void (*add_options)(CLI::App& command, shoal::Action& action);  // null: shoal-viz has them
 };
 constexpr Command kCommands[] = {
-    {"run", "Process what a manifest names and is not up to date", shoal::add_run_options},
+    {"run", "Process what a manifest names (panoramas, skies, lights) and is not up to date",
+     shoal::add_run_options},
     {"project", "Print the coefficients of panoramas; nothing is written",
      shoal::add_project_options},
+    {"quality", "Print how well coefficients stand for panoramas, and what light these hold",
+     shoal::add_quality_options},
     {"check", "Validate a manifest; print the plan and why each panorama would run",
      shoal::add_check_options},
     {"init", "Write a commented manifest for a folder of panoramas", shoal::add_init_options},
@@ -41,6 +44,7 @@ constexpr Command kCommands[] = {
     {"view", "Look at a library's lighting in a window", nullptr},
     {"render", "Make a picture of a library's lighting; needs no display", nullptr},
     {"report", "Make a page of a library that opens in any browser", nullptr},
+    {"profiles", "The engine profiles, or one of them whole", shoal::add_profiles_options},
     {"targets", "SIMD targets of this machine, best first", shoal::add_targets_options},
 };
 

@@ -64,7 +64,7 @@ void print_summary(const RunSummary& summary, const Manifest& manifest) {
                     counted(summary.missing_count, "panorama")));
   }
   for (const std::string& table : summary.tables) print_line("  table  " + table);
-  if (!manifest.maps.empty()) {
+  if (!manifest.maps.empty() || summary.map_count > 0) {  // pictures lie there, too
     print_line(fmt::format("  maps   {}/maps ({} written)", manifest.output.string(),
                            counted(summary.map_count, "file")));
   }

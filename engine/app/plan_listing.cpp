@@ -14,7 +14,7 @@ std::string_view verb(ItemWork work) {
     case ItemWork::none:
       return "skip";
     case ItemWork::outputs:
-      return "maps";
+      return "write";
     case ItemWork::all:
       return "project";
   }
@@ -47,7 +47,7 @@ int list_plan(const Manifest& manifest, const ManifestOptions& options) {
   for (const PlannedItem& item : plan->items) {
     fmt::print("{:<8} {}  ({})\n", verb(item.work), printable(item.entry->name), item.reason);
   }
-  fmt::print("{} to project, {} to write maps of, {} up to date; output in {}\n",
+  fmt::print("{} to project, {} to write files of, {} up to date; output in {}\n",
              plan->count(ItemWork::all), plan->count(ItemWork::outputs),
              plan->count(ItemWork::none), manifest.output.string());
   return kExitOk;

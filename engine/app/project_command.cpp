@@ -9,6 +9,7 @@
 #include "app/common_options.h"
 #include "app/interrupt.h"
 #include "app/messages.h"
+#include "app/profile_export.h"
 #include "batch/scheduler.h"
 #include "core/input_file.h"
 
@@ -18,6 +19,7 @@ namespace {
 struct ProjectCommand {
   std::vector<std::string> files;
   ComputeOptions compute;
+  ProfileOptions profile;
 };
 
 // Collects results from the workers and prints them in the order of the files, as soon as that is
@@ -80,6 +82,7 @@ ProjectionSettings settings_of(const ComputeChoice& choice) {
   settings.degree = choice.degree.value_or(settings.degree);
   settings.quadrature = choice.quadrature.value_or(settings.quadrature);
   settings.arithmetic = choice.arithmetic;
+  settings.layout = choice.layout.value_or(settings.layout);
   return settings;
 }
 
@@ -112,15 +115,24 @@ int project_files(const std::vector<std::string>& files, const ComputeChoice& ch
   return table.failures().empty() && written ? kExitOk : kExitFailed;
 }
 
+Result<std::unique_ptr<TableWriter>> make_writer(const ProfileOptions& profile,
+                                                 ComputeChoice& choice) {
+  if (!profile.profile.empty()) return profile_writer(profile, choice, write_to_stdout);
+  if (!profile.choices.empty()) {
+    return Error{ErrorCode::usage, "--option is for --profile", "", "name the profile, too"};
+  }
+  if (choice.quantities.empty()) choice.quantities = {Quantity::radiance};
+  const TableFormat format = choice.formats.empty() ? TableFormat::csv : choice.formats.front();
+  return stream_table(format, write_to_stdout, VariantColumn::absent);
+}
+
 int project(const ProjectCommand& command) {
   Result<ComputeChoice> choice = understand(command.compute);
   if (!choice) {
     print_error(choice.error());
     return kExitUsage;
   }
-  if (choice->quantities.empty()) choice->quantities = {Quantity::radiance};
-  const TableFormat format = choice->formats.empty() ? TableFormat::csv : choice->formats.front();
-  auto writer = stream_table(format, write_to_stdout, VariantColumn::absent);
+  auto writer = make_writer(command.profile, *choice);
   if (!writer) {
     print_error(writer.error());
     return kExitUsage;
@@ -134,6 +146,7 @@ void add_project_options(CLI::App& command, Action& action) {
   auto options = std::make_shared<ProjectCommand>();
   command.add_option("FILE", options->files, "Panoramas")->required();
   add_compute_options(command, options->compute);
+  add_profile_options(command, options->profile);
   command.add_option("--format", options->compute.formats, "csv (the default) or json")
       ->check(CLI::IsMember({"csv", "json"}))
       ->expected(1);

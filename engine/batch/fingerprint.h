@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -17,17 +18,18 @@ namespace shoal {
 // The version of the computation: pixels to coefficients, and coefficients to files.
 inline constexpr int kAlgorithmVersion = 1;
 
-// What a panorama's projection depends on besides its file.
+// What the projection of a panorama's pixels depends on besides its file.
 struct ProjectionParameters {
   ReadOptions read;
   ProjectionSettings projection;
+  std::optional<SkyKey> sky;  // that the pixels are painted of, where there is no file
 };
 
 // The same as a line of YAML with the manifest's own keys, for the store; its hash tells whether
 // two are the same. Band height, threads and SIMD target are not in it: they change no bit.
 [[nodiscard]] std::string parameter_text(const EntrySettings& settings);
 
-// Reads it back. Error: malformed.
+// Reads back that of a panorama with pixels: of a file, or of a sky. Error: malformed.
 Result<ProjectionParameters> parse_parameters(const std::string& text);
 
 // Of what a panorama's own files depend on besides its projection.

@@ -4,6 +4,9 @@
 
 #include <utility>
 
+#include "batch/painted_light.h"
+#include "batch/variant_light.h"
+#include "core/atomic_file.h"
 #include "core/content_hash.h"
 #include "transform/map_synthesis.h"
 
@@ -26,9 +29,14 @@ MapFile map_file(const PanoramaEntry& entry, const Variant& variant, const MapRe
                  const Projection& projection, const Frame& frame) {
   MapFile file;
   file.format = map_format(map);
-  const bool strip = map.layout == MapLayout::cube && map.faces == CubeFaces::strip;
-  file.width = strip ? 6 * map.width : map.width;
+  const Layout layout = layout_of(map);
+  file.width = map.width;
   file.height = map.height;
+  if (layout != Layout::equirect && layout != Layout::cube_faces) {
+    const LayoutSize size = size_of(layout, map.width);
+    file.width = size.width;
+    file.height = size.height;
+  }
   file.preview_exposure = map.preview_stops;
   file.attributes = {
       {"shoal:panorama", entry.name},
@@ -37,7 +45,10 @@ MapFile map_file(const PanoramaEntry& entry, const Variant& variant, const MapRe
       {"shoal:degree", std::to_string(projection.radiance.degree)},
       {"shoal:quadrature", std::string(name_of(projection.quadrature))},
   };
-  if (map.layout == MapLayout::cube) file.attributes.emplace_back("shoal:frame", text_of(frame));
+  if (layout != Layout::equirect) {
+    file.attributes.emplace_back("shoal:layout", std::string(name_of(layout)));
+  }
+  if (is_cube(layout)) file.attributes.emplace_back("shoal:frame", text_of(frame));
   return file;
 }
 
@@ -48,13 +59,26 @@ Status write_map_files(const Manifest& manifest, const MapRequest& map, const Ma
   if (map.layout == MapLayout::equirect) {
     return write_equirect_map(native, manifest.output / names.front(), file);
   }
-  const Coefficients in_frame = to_frame(native, frame);
-  const auto packing = map.faces == CubeFaces::strip ? CubePacking::strip : CubePacking::face;
+  const Layout layout = layout_of(map);
+  const Coefficients light = is_cube(layout) ? facing(native, frame) : native;
   for (std::size_t face = 0; face < names.size(); ++face) {
-    SHOAL_RETURN_IF_ERROR(write_cube_map(in_frame, packing, static_cast<int>(face),
-                                         manifest.output / names[face], file));
+    SHOAL_RETURN_IF_ERROR(write_layout_map(light, layout, static_cast<int>(face),
+                                           manifest.output / names[face], file));
   }
   return {};
+}
+
+// Of the panorama's light in a variant.
+Result<OutputRecord> write_export(const Manifest& manifest, const PanoramaEntry& entry,
+                                  const Variant& variant, const ExportRequest& request,
+                                  const Coefficients& radiance) {
+  const Profile& profile = *request.profile;
+  const bool one_variant = manifest.variants.size() == 1;
+  SHOAL_ASSIGN_OR_RETURN(
+      text, write_profile_text(profile, radiance, {entry.name, one_variant ? "" : variant.name}));
+  const std::string name = export_file(manifest, entry, variant, request);
+  SHOAL_RETURN_IF_ERROR(write_file_atomically(manifest.output / name, text));
+  return OutputRecord{name, "export:" + profile.name, hash_text(text), text.size()};
 }
 
 Result<OutputRecord> output_record(const Manifest& manifest, const std::string& name,
@@ -68,43 +92,59 @@ Result<OutputRecord> output_record(const Manifest& manifest, const std::string& 
 
 }  // namespace
 
-Result<Coefficients> variant_radiance(const Projection& projection, const PanoramaEntry& entry,
-                                      const Variant& variant) {
-  SHOAL_ASSIGN_OR_RETURN(matrix, combined_matrix(colour_of(*entry.settings, variant)));
-  return apply_matrix(projection.radiance, matrix);
-}
-
-Result<std::vector<OutputRecord>> write_item_maps(const Manifest& manifest,
-                                                  const PanoramaEntry& entry,
-                                                  const Projection& projection,
-                                                  const std::atomic<bool>& stop) {
+Result<std::vector<OutputRecord>> write_item_outputs(const Manifest& manifest,
+                                                     const PanoramaEntry& entry,
+                                                     const Projection& projection,
+                                                     const std::atomic<bool>& stop) {
   std::vector<OutputRecord> records;
-  if (manifest.maps.empty()) return records;
+  if (entry.settings->picture) {
+    SHOAL_ASSIGN_OR_RETURN(picture, write_picture_file(manifest, entry));
+    records.push_back(std::move(picture));
+  }
+  if (manifest.maps.empty() && manifest.exports.empty()) return records;
   for (const Variant& variant : manifest.variants) {
-    SHOAL_ASSIGN_OR_RETURN(radiance, variant_radiance(projection, entry, variant));
+    SHOAL_ASSIGN_OR_RETURN(light, variant_light(projection, entry, variant));
     const Frame frame = frame_of(*entry.settings, variant);
     for (const MapRequest& map : manifest.maps) {
       if (stop) return Error{ErrorCode::interrupted, "interrupted", entry.file, ""};
       const std::vector<std::string> names = map_files(manifest, entry, variant, map);
-      SHOAL_RETURN_IF_ERROR(write_map_files(manifest, map,
-                                            map_file(entry, variant, map, projection, frame),
-                                            apply_quantity(radiance, map.kind), frame, names));
+      SHOAL_RETURN_IF_ERROR(
+          write_map_files(manifest, map, map_file(entry, variant, map, projection, frame),
+                          apply_quantity(light.radiance, map.kind), frame, names));
       for (const std::string& name : names) {
         SHOAL_ASSIGN_OR_RETURN(record, output_record(manifest, name, map));
         records.push_back(std::move(record));
       }
     }
+    for (const ExportRequest& request : manifest.exports) {
+      if (stop) return Error{ErrorCode::interrupted, "interrupted", entry.file, ""};
+      SHOAL_ASSIGN_OR_RETURN(record,
+                             write_export(manifest, entry, variant, request, light.radiance));
+      records.push_back(std::move(record));
+    }
   }
   return records;
+}
+
+Result<std::vector<VariantQuality>> item_quality(const Manifest& manifest,
+                                                 const PanoramaEntry& entry,
+                                                 const Projection& projection) {
+  std::vector<VariantQuality> figures;
+  if (!wants_quality(manifest, *entry.settings)) return figures;
+  for (const Variant& variant : manifest.variants) {
+    SHOAL_ASSIGN_OR_RETURN(quality, variant_quality(projection, entry, variant));
+    figures.push_back({variant.name, std::move(quality)});
+  }
+  return figures;
 }
 
 Status make_item_records(const Manifest& manifest, const PanoramaEntry& entry,
                          const Projection& projection,
                          const std::function<Status(const CoefficientRecord&)>& take) {
   for (const Variant& variant : manifest.variants) {
-    SHOAL_ASSIGN_OR_RETURN(radiance, variant_radiance(projection, entry, variant));
+    SHOAL_ASSIGN_OR_RETURN(light, variant_light(projection, entry, variant));
     const Frame frame = frame_of(*entry.settings, variant);
-    const Coefficients in_frame = to_frame(radiance, frame);
+    const Coefficients in_frame = to_frame(light.radiance, frame);
     for (const Quantity quantity : manifest.quantities) {
       SHOAL_RETURN_IF_ERROR(
           take({entry.name, variant.name, quantity, apply_quantity(in_frame, quantity), frame}));

@@ -15,17 +15,19 @@
 
 namespace shoal {
 
-// Radiance of a variant in the native frame: white balance, matrix, scale and exposure applied.
-// Error: usage (colour operations that make no sense).
-Result<Coefficients> variant_radiance(const Projection& projection, const PanoramaEntry& entry,
-                                      const Variant& variant);
+// Writes the picture, all maps and exports of a panorama. Returns what was written, in the
+// manifest's order. Errors: write_failed, usage (as variant_light), interrupted (`stop` is looked
+// at before every file).
+Result<std::vector<OutputRecord>> write_item_outputs(const Manifest& manifest,
+                                                     const PanoramaEntry& entry,
+                                                     const Projection& projection,
+                                                     const std::atomic<bool>& stop);
 
-// Writes all maps of a panorama. Returns what was written, in the manifest's order. Errors:
-// write_failed, usage (as above), interrupted (`stop` is looked at before every map).
-Result<std::vector<OutputRecord>> write_item_maps(const Manifest& manifest,
-                                                  const PanoramaEntry& entry,
-                                                  const Projection& projection,
-                                                  const std::atomic<bool>& stop);
+// The figures of quality of all variants, or none where they are not wanted. Errors: as
+// variant_light.
+Result<std::vector<VariantQuality>> item_quality(const Manifest& manifest,
+                                                 const PanoramaEntry& entry,
+                                                 const Projection& projection);
 
 // Hands `take` the panorama's records for the tables, in their order, stopping at its first error.
 Status make_item_records(const Manifest& manifest, const PanoramaEntry& entry,

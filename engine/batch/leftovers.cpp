@@ -33,7 +33,8 @@ int remove_temporaries(const std::filesystem::path& folder) {
 
 int remove_leftovers(const std::filesystem::path& folder) {
   return remove_temporaries<std::filesystem::directory_iterator>(folder) +
-         remove_temporaries<std::filesystem::recursive_directory_iterator>(folder / "maps");
+         remove_temporaries<std::filesystem::recursive_directory_iterator>(folder / "maps") +
+         remove_temporaries<std::filesystem::recursive_directory_iterator>(folder / "exports");
 }
 
 RunMark::RunMark(RunMark&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}

@@ -14,7 +14,7 @@
 namespace shoal {
 
 // Removes files with temporary names from the places that runs write to: `folder` itself, and
-// maps/ below it with all of its folders. Returns how many.
+// maps/ and exports/ below it with all of their folders. Returns how many.
 int remove_leftovers(const std::filesystem::path& folder);
 
 class RunMark {

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <memory>
+#include <string_view>
 #include <system_error>
+#include <unordered_set>
 #include <utility>
 
 #include "batch/manifest_entries.h"
@@ -153,6 +155,33 @@ void DocumentLoader::load(const fs::path& path, const SourceLoc& included_at) {
   documents.push_back(document);
 }
 
+// Each variant, or its views in its place.
+std::vector<Variant> spread_variants(const std::vector<VariantText>& texts, ManifestLog& log) {
+  if (texts.empty()) return {{"plain", {}, {}}};
+  std::vector<Variant> variants;
+  for (const auto& [variant, views] : texts) {
+    if (views.count == 0) {
+      variants.push_back(variant);
+      continue;
+    }
+    const auto turns =
+        views.over == ViewsOver::yaw ? spread_turns(views.count) : spread_all(views.count);
+    const std::size_t digits = std::to_string(views.count).size();
+    for (std::size_t i = 0; i < turns.size(); ++i) {
+      variants.push_back(variant);
+      variants.back().name += fmt::format("-{:0{}}", i + 1, digits);
+      variants.back().view = turns[i];
+    }
+  }
+  std::unordered_set<std::string_view> names;
+  for (const Variant& variant : variants) {
+    if (names.insert(variant.name).second) continue;
+    log.error(variant.loc, fmt::format("two variants are named {}", in_quotes(variant.name)),
+              "a variant with views stands for NAME-1, NAME-2 and so on");
+  }
+  return variants;
+}
+
 Manifest resolve(const fs::path& path, ManifestText& text, ManifestVariables& variables,
                  ManifestLog& log) {
   Manifest manifest;
@@ -160,11 +189,12 @@ Manifest resolve(const fs::path& path, ManifestText& text, ManifestVariables& va
   manifest.output =
       text.output ? text.output_folder / text.output->text : path.parent_path() / "out";
   manifest.output = manifest.output.lexically_normal();
-  manifest.variants = text.variants;
-  if (manifest.variants.empty()) manifest.variants.push_back({"plain", {}, {}});
+  manifest.variants = spread_variants(text.variants, log);
   manifest.quantities = text.quantities;
   manifest.tables = text.tables;
+  manifest.figure_tables = text.figure_tables;
   manifest.maps = text.maps;
+  manifest.exports = text.exports;
 
   std::vector<EntryText> entries;
   for (const DocumentNode& item : text.panoramas) {

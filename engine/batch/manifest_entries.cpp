@@ -11,6 +11,7 @@
 
 #include "batch/glob.h"
 #include "batch/manifest_names.h"
+#include "image/face_files.h"
 
 namespace shoal {
 namespace {
@@ -33,13 +34,17 @@ std::string nearby_file(const fs::path& file) {
   return did_you_mean(file.filename().string(), {names.begin(), names.end()});
 }
 
+void check_name(const EntryText& entry, ManifestLog& log) {
+  if (const std::string fault = entry.name ? name_fault(entry.name->text) : ""; !fault.empty()) {
+    log.error(entry.name->loc, fmt::format("the name {} {}", in_quotes(entry.name->text), fault));
+  }
+}
+
 void find_file(const EntryText& entry, PanoramaNames& names, std::vector<PanoramaEntry>& found,
                ManifestLog& log) {
   const fs::path file = (entry.folder / entry.file->text).lexically_normal();
   const SourceLoc& loc = entry.file->loc;
-  if (const std::string fault = entry.name ? name_fault(entry.name->text) : ""; !fault.empty()) {
-    log.error(entry.name->loc, fmt::format("the name {} {}", in_quotes(entry.name->text), fault));
-  }
+  check_name(entry, log);
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   if (fs::is_directory(status)) {
@@ -60,6 +65,15 @@ void find_file(const EntryText& entry, PanoramaNames& names, std::vector<Panoram
     names.add_path(file.filename().string());
   }
   found.push_back({"", file.string(), std::make_shared<EntrySettings>(entry.settings),
+                   std::make_shared<EntryOrigin>(EntryOrigin{"", entry.loc})});
+}
+
+// A panorama of a sky, or of lights alone.
+void find_fileless(const EntryText& entry, PanoramaNames& names, std::vector<PanoramaEntry>& found,
+                   ManifestLog& log) {
+  check_name(entry, log);
+  names.add_given(entry.name->text, entry.name->loc);
+  found.push_back({"", "", std::make_shared<EntrySettings>(entry.settings),
                    std::make_shared<EntryOrigin>(EntryOrigin{"", entry.loc})});
 }
 
@@ -131,6 +145,20 @@ struct Search {
   std::unordered_set<std::string> taken;  // where there are several patterns: they may overlap
 };
 
+// Whether the file is one of six faces of which another stands for all: the first one that matches.
+bool is_further_face(const std::string& path, const std::string& root, const GlobMatches& matches,
+                     Layout layout) {
+  if (layout != Layout::automatic && layout != Layout::cube_faces) return false;
+  const auto faces = existing_face_paths(root + path);
+  if (!faces) return false;
+  const auto matching = std::ranges::find_if(*faces, [&](const fs::path& face) {
+    const std::string& text = face.native();
+    return text.starts_with(root) &&
+           std::ranges::binary_search(matches.paths, text.substr(root.size()));
+  });
+  return matching != faces->end() && *matching != root + path;
+}
+
 // How many matches of a pattern are no maps of shoal's own, and how many of these are excluded.
 struct MatchCounts {
   std::size_t eligible = 0;
@@ -151,6 +179,7 @@ MatchCounts take_matches(const LocatedText& pattern, const Glob& glob, const Glo
       ++counts.excluded;
       continue;
     }
+    if (is_further_face(path, root, matches, search.settings->projection.layout)) continue;
     std::string file = root + path;
     if (search.entry.files.size() > 1 && !search.taken.insert(file).second) continue;
     names.add_path(path);
@@ -206,6 +235,8 @@ std::vector<PanoramaEntry> find_panoramas(const std::vector<EntryText>& entries,
   for (const EntryText& entry : entries) {
     if (entry.file)
       find_file(entry, names, found, log);
+    else if (entry.settings.origin != LightOrigin::file)
+      find_fileless(entry, names, found, log);
     else
       find_files(entry, output, names, found, log);
   }

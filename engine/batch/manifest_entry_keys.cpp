@@ -1,95 +1,19 @@
-// The keys of panoramas, of defaults, and those that variants share with them.
-#include <limits>
-
+// The keys of panoramas and of defaults, but for the linear ones.
 #include "batch/manifest_key_table.h"
 
 namespace shoal {
 namespace {
 
-using Limits = std::numeric_limits<double>;
-constexpr NumberRule kStops{-100.0, 100.0, "a number of stops from -100 to 100"};
-constexpr NumberRule kAboveZero{Limits::denorm_min(), Limits::max(), "a number above 0"};
-constexpr NumberRule kNotNegative{0.0, Limits::max(), "a number that is not negative"};
-constexpr NumberRule kAnyNumber{Limits::lowest(), Limits::max(), "a number"};
-constexpr std::string_view kMatrixForm = "three lists of three numbers, the matrix's rows";
-
 constexpr Choice<Quadrature> kQuadratures[] = {
     {"texel", Quadrature::texel}, {"midpoint", Quadrature::midpoint}, {"fejer", Quadrature::fejer}};
 
-template <typename T, typename U>
-void assign(std::optional<T> value, U& target) {
-  if (value) target = std::move(*value);
-}
-
-std::optional<glm::dmat3> read_matrix(const ManifestReader& reader, const Field& field) {
-  const auto rows = reader.items(field, kMatrixForm);
-  if (!rows) return std::nullopt;
-  if (rows->size() != 3) {
-    reader.error(field.value,
-                 fmt::format("matrix must be {}, not a list of {}", kMatrixForm, rows->size()));
-    return std::nullopt;
+constexpr auto kLayouts = [] {
+  std::array<Choice<Layout>, kLayoutNames.size()> choices{};
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    choices[i] = {kLayoutNames[i].name, kLayoutNames[i].layout};
   }
-  glm::dmat3 matrix{1.0};
-  for (int row = 0; row < 3; ++row) {
-    const auto numbers =
-        reader.numbers({field.key, field.key_node, (*rows)[row]}, 3, kAnyNumber, kMatrixForm);
-    if (!numbers) return std::nullopt;
-    for (int column = 0; column < 3; ++column) matrix[column][row] = (*numbers)[column];
-  }
-  return matrix;
-}
-
-std::optional<glm::dvec3> read_white(const ManifestReader& reader, const Field& field) {
-  const auto rgb = reader.numbers(field, 3, kAboveZero, "a list of three numbers above 0");
-  if (!rgb) return std::nullopt;
-  return glm::dvec3((*rgb)[0], (*rgb)[1], (*rgb)[2]);
-}
-
-template <std::string FrameAxes::*kAxis>
-void read_axis(const ManifestReader& reader, const Field& field, FrameAxes& axes) {
-  assign(reader.text(field), axes.*kAxis);
-}
-
-constexpr ManifestKeyRule<FrameAxes> kFrameRules[] = {{"center", read_axis<&FrameAxes::center>},
-                                                      {"right", read_axis<&FrameAxes::right>},
-                                                      {"up", read_axis<&FrameAxes::up>}};
-
-Result<Frame> parse_axes(const ManifestReader& reader, const Field& field) {
-  FrameAxes axes;
-  read_mapping(reader, field.value, kFrameMapping, KeyTarget<FrameAxes>{kFrameRules, &axes});
-  if (axes.center.empty() || axes.right.empty() || axes.up.empty()) {
-    return Error{ErrorCode::usage, "a frame needs center, right and up", "",
-                 "such as {center: +z, right: -x, up: +y}"};
-  }
-  return parse_frame(axes.center, axes.right, axes.up);
-}
-
-std::optional<Frame> read_frame(const ManifestReader& reader, const Field& field) {
-  std::optional<std::string> text;
-  if (!field.value.IsMap()) {
-    text = reader.text(field);
-    if (!text) return std::nullopt;
-  }
-  const Result<Frame> frame = text ? parse_frame(*text) : parse_axes(reader, field);
-  if (frame) return *frame;
-  reader.error(field.value, frame.error().what, frame.error().hint);
-  return std::nullopt;
-}
-
-const ManifestKeyRule<LinearKeys> kLinearRules[] = {
-    {"exposure",
-     [](const ManifestReader& reader, const Field& field, LinearKeys& keys) {
-       assign(reader.number(field, kStops), keys.exposure_stops);
-     }},
-    {"scale", [](const ManifestReader& reader, const Field& field,
-                 LinearKeys& keys) { assign(reader.number(field, kAboveZero), keys.scale); }},
-    {"matrix", [](const ManifestReader& reader, const Field& field,
-                  LinearKeys& keys) { assign(read_matrix(reader, field), keys.matrix); }},
-    {"white", [](const ManifestReader& reader, const Field& field,
-                 LinearKeys& keys) { assign(read_white(reader, field), keys.white); }},
-    {"frame", [](const ManifestReader& reader, const Field& field,
-                 LinearKeys& keys) { assign(read_frame(reader, field), keys.frame); }},
-};
+  return choices;
+}();
 
 std::vector<std::string> texts_of(const ManifestReader& reader, const Field& field) {
   std::vector<std::string> texts;
@@ -102,11 +26,20 @@ const ManifestKeyRule<EntrySettings> kSettingRules[] = {
      [](const ManifestReader& reader, const Field& field, EntrySettings& settings) {
        assign(reader.integer(field, {0, kMaxDegree}), settings.projection.degree);
      }},
+    {"quality",
+     [](const ManifestReader& reader, const Field& field, EntrySettings& settings) {
+       assign(reader.integer(field, {0, kMaxDegree}), settings.projection.quality_degree);
+     }},
     {"quadrature",
      [](const ManifestReader& reader, const Field& field, EntrySettings& settings) {
        assign(reader.choice<Quadrature>(field, kQuadratures), settings.projection.quadrature);
      },
      choice_names<kQuadratures>},
+    {"layout",
+     [](const ManifestReader& reader, const Field& field, EntrySettings& settings) {
+       assign(reader.choice<Layout>(field, kLayouts), settings.projection.layout);
+     },
+     choice_names<kLayouts>},
     {"nonfinite",
      [](const ManifestReader& reader, const Field& field, EntrySettings& settings) {
        assign(reader.choice<PixelPolicy::NonFinite>(field, kNonFiniteChoices),
@@ -121,8 +54,13 @@ const ManifestKeyRule<EntrySettings> kSettingRules[] = {
      choice_names<kNegativeChoices>},
     {"clamp",
      [](const ManifestReader& reader, const Field& field, EntrySettings& settings) {
-       assign(reader.number(field, kNotNegative), settings.projection.pixels.clamp);
+       read_clamp(reader, field, settings.projection.pixels);
      }},
+    {"sun",
+     [](const ManifestReader& reader, const Field& field, EntrySettings& settings) {
+       read_sun(reader, field, settings.projection.sun);
+     },
+     choice_names<kNoSunChoices>},
     {"rgbe_decode",
      [](const ManifestReader& reader, const Field& field, EntrySettings& settings) {
        assign(reader.choice<RgbeDecode>(field, kRgbeDecodeChoices), settings.read.rgbe_decode);
@@ -139,6 +77,10 @@ const ManifestKeyRule<EntrySettings> kSettingRules[] = {
                 EntrySettings& settings) { assign(reader.text(field), settings.read.part); }},
     {"tags", [](const ManifestReader& reader, const Field& field,
                 EntrySettings& settings) { settings.tags = texts_of(reader, field); }},
+    {"lights",
+     [](const ManifestReader& reader, const Field& field, EntrySettings& settings) {
+       assign(read_lights(reader, field), settings.lights);
+     }},
 };
 
 template <std::optional<LocatedText> EntryText::*kMember>
@@ -157,6 +99,10 @@ const ManifestKeyRule<EntryText> kEntryRules[] = {
     {"files", read_texts<&EntryText::files>},
     {"name", read_one_text<&EntryText::name>},
     {"exclude", read_texts<&EntryText::exclude>},
+    {"sky", [](const ManifestReader& reader, const Field& field,
+               EntryText& entry) { entry.settings.sky = read_sky(reader, field); }},
+    {"picture", [](const ManifestReader& reader, const Field& field,
+                   EntryText& entry) { entry.settings.picture = read_picture(reader, field); }},
 };
 
 bool has_key(const YAML::Node& node, std::string_view key) {
@@ -165,8 +111,40 @@ bool has_key(const YAML::Node& node, std::string_view key) {
   });
 }
 
+// A directional light is infinite where it is.
+bool check_picture(const ManifestReader& reader, const YAML::Node& node,
+                   const EntrySettings& settings) {
+  const bool has_none = std::ranges::any_of(settings.lights, [](const AnalyticLight& light) {
+    return std::holds_alternative<DirectionalLight>(light);
+  });
+  if (!settings.picture || !has_none) return true;
+  reader.error(node["picture"], "a directional light has no picture",
+               "a disk of a small radius has one");
+  return false;
+}
+
+// An entry without a file: a sky, or lights alone.
+bool check_fileless_keys(const ManifestReader& reader, const YAML::Node& node, EntryText& entry) {
+  EntrySettings& settings = entry.settings;
+  const bool is_sky = has_key(node, "sky");
+  settings.origin = is_sky ? LightOrigin::sky : LightOrigin::lights;
+  const std::string_view what = is_sky ? "a sky" : "lights alone";
+  if (!entry.name) {
+    reader.error(node, fmt::format("an entry of {} needs a name", what), "say name: NAME");
+  }
+  if (!entry.exclude.empty()) {
+    reader.error(node, fmt::format("exclude goes with files, not with {}", what), "leave it out");
+  }
+  if (!is_sky && node["lights"].IsSequence() && node["lights"].size() == 0) {
+    reader.error(node, "this entry has neither a file nor a light",
+                 "say file: PATH, or add lights");
+  }
+  const bool has_light = is_sky ? settings.sky.has_value() : !settings.lights.empty();
+  return entry.name && entry.exclude.empty() && has_light && check_picture(reader, node, settings);
+}
+
 // Whether the keys that name files make sense together; told where they do not.
-bool check_file_keys(const ManifestReader& reader, const YAML::Node& node, const EntryText& entry) {
+bool check_file_keys(const ManifestReader& reader, const YAML::Node& node, EntryText& entry) {
   const bool has_file = has_key(node, "file");
   const bool has_files = has_key(node, "files");
   if (has_file && has_files) {
@@ -181,22 +159,25 @@ bool check_file_keys(const ManifestReader& reader, const YAML::Node& node, const
     reader.error(node, "exclude goes with files, not with file", "leave it out");
     return false;
   }
-  if (has_file || has_files) return true;
-  const bool is_later = std::any_of(node.begin(), node.end(), [](const auto& pair) {
-    return pair.first.IsScalar() && is_later_key(kPanoramaMapping, pair.first.Scalar());
-  });
-  if (!is_later) {
-    reader.error(node, "this entry names no panorama", "say file: PATH or files: PATTERN");
+  for (const std::string_view key : {"sky", "picture"}) {
+    if (!(has_file || has_files) || !has_key(node, key)) continue;
+    reader.error(node, fmt::format("{} does not go with {}", key, has_file ? "file" : "files"),
+                 "it belongs to an entry without a file");
+    return false;
   }
+  if (has_file || has_files) return true;
+  if (has_key(node, "sky") || has_key(node, "lights")) {
+    return check_fileless_keys(reader, node, entry);
+  }
+  reader.error(node, "this entry names no panorama",
+               "say file: PATH, files: PATTERN, sky: MAPPING, or lights: LIST");
   return false;
 }
 
 }  // namespace
 
-std::span<const ManifestKeyRule<LinearKeys>> linear_rules() { return kLinearRules; }
 std::span<const ManifestKeyRule<EntrySettings>> setting_rules() { return kSettingRules; }
 std::span<const ManifestKeyRule<EntryText>> entry_rules() { return kEntryRules; }
-std::span<const ManifestKeyRule<FrameAxes>> frame_rules() { return kFrameRules; }
 
 std::optional<EntryText> read_entry(const ManifestReader& reader, const YAML::Node& node,
                                     const EntrySettings& defaults) {
@@ -212,7 +193,7 @@ std::optional<EntryText> read_entry(const ManifestReader& reader, const YAML::No
   entry.folder = reader.document().folder;
   if (!read_mapping(reader, node, kPanoramaMapping, KeyTarget<EntryText>{kEntryRules, &entry},
                     KeyTarget<EntrySettings>{kSettingRules, &entry.settings},
-                    KeyTarget<LinearKeys>{kLinearRules, &entry.settings.linear})) {
+                    KeyTarget<LinearKeys>{linear_rules(), &entry.settings.linear})) {
     return std::nullopt;
   }
   if (!check_file_keys(reader, node, entry)) return std::nullopt;

@@ -1,19 +1,19 @@
 #include "batch/manifest_keys.h"
 
 #include <utility>
+#include <variant>
 
 #include "batch/manifest_key_table.h"
 
 namespace shoal {
 namespace {
 
-constexpr std::string_view kLaterOfManifest[] = {"exports", "views",  "window",
-                                                 "rotate",  "lights", "sky"};
-constexpr std::string_view kLaterOfEntries[] = {"lights", "sky",   "rotate", "window",
-                                                "layout", "views", "exports"};
-
-constexpr Choice<TableFormat> kTables[] = {
-    {"csv", TableFormat::csv}, {"json", TableFormat::json}, {"npy", TableFormat::npy}};
+using AnyTable = std::variant<TableFormat, FigureTable>;
+constexpr Choice<AnyTable> kTables[] = {{"csv", TableFormat::csv},
+                                        {"json", TableFormat::json},
+                                        {"npy", TableFormat::npy},
+                                        {"quality", FigureTable::quality},
+                                        {"lights", FigureTable::lights}};
 
 void read_defaults(const ManifestReader& reader, const Field& field, ManifestText& text) {
   read_mapping(reader, field.value, kDefaultsMapping,
@@ -39,12 +39,14 @@ void read_variants(const ManifestReader& reader, const Field& field, ManifestTex
   const auto fields = reader.fields(field.value, "variants");
   if (!fields) return;
   for (const Field& one : *fields) {
-    Variant variant{one.key, {}, reader.loc(one.key_node)};
+    VariantText variant{{one.key, {}, reader.loc(one.key_node)}, {}};
     read_mapping(reader, one.value, kVariantMapping,
-                 KeyTarget<LinearKeys>{linear_rules(), &variant.linear});
+                 KeyTarget<LinearKeys>{linear_rules(), &variant.variant.linear},
+                 KeyTarget<ViewsKey>{variant_rules(), &variant.views});
     if (!check_variant_name(reader, one)) continue;
-    const auto known = std::find_if(text.variants.begin(), text.variants.end(),
-                                    [&one](const Variant& other) { return other.name == one.key; });
+    const auto known =
+        std::find_if(text.variants.begin(), text.variants.end(),
+                     [&one](const VariantText& other) { return other.variant.name == one.key; });
     if (known == text.variants.end())
       text.variants.push_back(std::move(variant));
     else
@@ -64,6 +66,19 @@ void replace_choices(const ManifestReader& reader, const Field& field,
   target = *values;
 }
 
+void read_tables(const ManifestReader& reader, const Field& field, ManifestText& text) {
+  std::vector<AnyTable> tables;
+  replace_choices<AnyTable>(reader, field, kTables, tables);
+  text.tables.clear();
+  text.figure_tables.clear();
+  for (const AnyTable& table : tables) {
+    if (const auto* format = std::get_if<TableFormat>(&table)) text.tables.push_back(*format);
+    if (const auto* figures = std::get_if<FigureTable>(&table)) {
+      text.figure_tables.push_back(*figures);
+    }
+  }
+}
+
 void read_maps(const ManifestReader& reader, const Field& field, ManifestText& text) {
   const auto items = reader.items(field, "a list of maps, such as [{kind: irradiance}]");
   if (!items) return;
@@ -71,6 +86,20 @@ void read_maps(const ManifestReader& reader, const Field& field, ManifestText& t
   for (const YAML::Node& item : *items) {
     if (std::optional<MapRequest> map = read_map(reader, item))
       text.maps.push_back(std::move(*map));
+  }
+}
+
+void read_exports(const ManifestReader& reader, const Field& field, ManifestText& text) {
+  std::vector<YAML::Node> nodes{field.value};
+  if (!field.value.IsScalar()) {
+    const auto items = reader.items(field, "a list of profiles, such as [three, unity]");
+    if (!items) return;
+    nodes = *items;
+  }
+  text.exports.clear();
+  for (const YAML::Node& node : nodes) {
+    if (std::optional<ExportRequest> request = read_export(reader, node))
+      text.exports.push_back(std::move(*request));
   }
 }
 
@@ -97,11 +126,12 @@ const ManifestKeyRule<ManifestText> kManifestRules[] = {
      choice_names<kQuantityChoices>},
     {"tables",
      [](const ManifestReader& reader, const Field& field, ManifestText& text) {
-       replace_choices<TableFormat>(reader, field, kTables, text.tables);
+       read_tables(reader, field, text);
        text.tables_loc = reader.loc(field.value);
      },
      choice_names<kTables>},
     {"maps", read_maps},
+    {"exports", read_exports},
 };
 
 template <typename T>
@@ -118,8 +148,12 @@ std::string mappings_of_key(std::string_view key) {
   std::string mappings;
   for (const ManifestKey& known : manifest_keys()) {
     if (known.key != key) continue;
-    for (const MappingKind* kind : {&kManifestMapping, &kDefaultsMapping, &kPanoramaMapping,
-                                    &kVariantMapping, &kMapMapping, &kFrameMapping}) {
+    for (const MappingKind* kind :
+         {&kManifestMapping, &kDefaultsMapping, &kPanoramaMapping,    &kVariantMapping,
+          &kMapMapping,      &kExportMapping,   &kClampMapping,       &kSunMapping,
+          &kFrameMapping,    &kTurnMapping,     &kWindowMapping,      &kViewsMapping,
+          &kLightMapping,    &kAmbientMapping,  &kDirectionalMapping, &kDiskMapping,
+          &kCosineMapping,   &kSkyMapping,      &kSkySunMapping,      &kPictureMapping}) {
       if (kind->name != known.mapping) continue;
       mappings += fmt::format("{}{}", mappings.empty() ? "" : " or ", kind->what);
     }
@@ -129,24 +163,29 @@ std::string mappings_of_key(std::string_view key) {
 
 }  // namespace
 
-const MappingKind kManifestMapping{"manifest", "the manifest's top level", kLaterOfManifest};
-const MappingKind kDefaultsMapping{"defaults", "defaults", kLaterOfEntries};
-const MappingKind kPanoramaMapping{"panorama", "a panorama", kLaterOfEntries};
-const MappingKind kVariantMapping{"variant", "a variant", kLaterOfEntries};
+const MappingKind kManifestMapping{"manifest", "the manifest's top level"};
+const MappingKind kDefaultsMapping{"defaults", "defaults"};
+const MappingKind kPanoramaMapping{"panorama", "a panorama"};
+const MappingKind kVariantMapping{"variant", "a variant"};
 const MappingKind kMapMapping{"map", "a map"};
+const MappingKind kExportMapping{"export", "an export"};
+const MappingKind kClampMapping{"clamp", "a clamp"};
+const MappingKind kSunMapping{"sun", "a sun"};
 const MappingKind kFrameMapping{"frame", "a frame"};
-
-bool is_later_key(const MappingKind& kind, std::string_view key) {
-  return std::find(kind.later.begin(), kind.later.end(), key) != kind.later.end();
-}
+const MappingKind kTurnMapping{"rotate", "a rotation"};
+const MappingKind kWindowMapping{"window", "a window"};
+const MappingKind kViewsMapping{"views", "views"};
+const MappingKind kLightMapping{"light", "a light"};
+const MappingKind kAmbientMapping{"ambient", "an ambient light"};
+const MappingKind kDirectionalMapping{"directional", "a directional light"};
+const MappingKind kDiskMapping{"disk", "a disk"};
+const MappingKind kCosineMapping{"cosine", "a cosine lobe"};
+const MappingKind kSkyMapping{"sky", "a sky"};
+const MappingKind kSkySunMapping{"sky_sun", "a sky's sun"};
+const MappingKind kPictureMapping{"picture", "a picture"};
 
 void tell_unknown_key(const ManifestReader& reader, const Field& field, const MappingKind& kind,
                       const std::vector<std::string_view>& known) {
-  if (is_later_key(kind, field.key)) {
-    return reader.error(field.key_node,
-                        fmt::format("{} is not available yet", in_quotes(field.key)),
-                        "leave it out");
-  }
   std::string hint = did_you_mean(field.key, known);
   const std::string elsewhere = mappings_of_key(field.key);
   const std::size_t colon = field.key.find(':');
@@ -179,8 +218,23 @@ std::vector<ManifestKey> manifest_keys() {
   add_keys(kDefaultsMapping, setting_rules(), keys);
   add_keys(kDefaultsMapping, linear_rules(), keys);
   add_keys(kVariantMapping, linear_rules(), keys);
+  add_keys(kVariantMapping, variant_rules(), keys);
   add_keys(kMapMapping, map_rules(), keys);
+  add_keys(kExportMapping, export_rules(), keys);
+  add_keys(kClampMapping, clamp_rules(), keys);
+  add_keys(kSunMapping, sun_rules(), keys);
   add_keys(kFrameMapping, frame_rules(), keys);
+  add_keys(kTurnMapping, turn_rules(), keys);
+  add_keys(kWindowMapping, window_rules(), keys);
+  add_keys(kViewsMapping, views_rules(), keys);
+  add_keys(kLightMapping, light_rules(), keys);
+  add_keys(kAmbientMapping, ambient_rules(), keys);
+  add_keys(kDirectionalMapping, directional_rules(), keys);
+  add_keys(kDiskMapping, disk_rules(), keys);
+  add_keys(kCosineMapping, cosine_rules(), keys);
+  add_keys(kSkyMapping, sky_rules(), keys);
+  add_keys(kSkySunMapping, sky_sun_rules(), keys);
+  add_keys(kPictureMapping, picture_rules(), keys);
   return keys;
 }
 

@@ -25,6 +25,12 @@ struct EntryText {
   std::filesystem::path folder;  // that its paths are relative to
 };
 
+// A variant before it is spread over its views.
+struct VariantText {
+  Variant variant;
+  ViewsKey views;
+};
+
 // A place in a document, to be read later.
 struct DocumentNode {
   std::shared_ptr<const ManifestDocument> document;
@@ -37,11 +43,13 @@ struct ManifestText {
   std::filesystem::path output_folder;  // that output is relative to
   EntrySettings defaults;
   std::vector<DocumentNode> panoramas;  // the items of the lists
-  std::vector<Variant> variants;
+  std::vector<VariantText> variants;
   std::vector<Quantity> quantities{Quantity::radiance, Quantity::irradiance};
   std::vector<TableFormat> tables{TableFormat::csv};
+  std::vector<FigureTable> figure_tables;
   SourceLoc tables_loc;
   std::vector<MapRequest> maps;
+  std::vector<ExportRequest> exports;
 
   std::shared_ptr<const ManifestDocument> document;  // the one being read
 };
@@ -51,15 +59,15 @@ struct ManifestText {
 void read_top_level(const ManifestReader& reader,
                     const std::shared_ptr<const ManifestDocument>& document, ManifestText& text);
 
-// Reads one item of a panoramas: list. Null where it is no mapping, or names no file because it
-// asks for what comes in a later version.
+// Reads one item of a panoramas: list. Null where it is no mapping, or its keys do not make sense
+// together.
 [[nodiscard]] std::optional<EntryText> read_entry(const ManifestReader& reader,
                                                   const YAML::Node& node,
                                                   const EntrySettings& defaults);
 
 // For the schema's test: every key that is accepted, by the mapping that accepts it.
 struct ManifestKey {
-  std::string_view mapping;  // "manifest", "defaults", "panorama", "variant", "map", "frame"
+  std::string_view mapping;  // MappingKind::name: "manifest", "panorama", "disk" ...
   std::string_view key;
   std::vector<std::string_view> choices;  // of a value that is one of several words
 };

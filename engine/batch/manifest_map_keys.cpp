@@ -4,12 +4,19 @@
 namespace shoal {
 namespace {
 
-constexpr Choice<MapLayout> kLayouts[] = {{"equirect", MapLayout::equirect},
-                                          {"cube", MapLayout::cube}};
+constexpr Choice<MapLayout> kLayouts[] = {
+    {"equirect", MapLayout::equirect},
+    {"cube", MapLayout::cube},
+    {"cube-vertical-cross", MapLayout::cube_vertical_cross},
+    {"cube-horizontal-cross", MapLayout::cube_horizontal_cross},
+    {"cube-vertical-strip", MapLayout::cube_vertical_strip},
+    {"cube-horizontal-strip", MapLayout::cube_horizontal_strip},
+    {"angular", MapLayout::angular},
+    {"mirror-ball", MapLayout::mirror_ball},
+    {"octahedral", MapLayout::octahedral},
+    {"octahedral-equal-area", MapLayout::octahedral_equal_area}};
 constexpr Choice<MapFileType> kFormats[] = {
     {"exr", MapFileType::exr}, {"hdr", MapFileType::hdr}, {"png", MapFileType::png}};
-constexpr Choice<MapSamples> kSamples[] = {{"half", MapSamples::half},
-                                           {"float", MapSamples::single}};
 constexpr Choice<CubeFaces> kFaces[] = {{"strip", CubeFaces::strip}, {"files", CubeFaces::files}};
 
 constexpr NumberRule kStops{-100.0, 100.0, "a number of stops from -100 to 100"};
@@ -27,7 +34,7 @@ const ManifestKeyRule<MapText> kMapRules[] = {
     {"layout", keep<&MapText::layout>, choice_names<kLayouts>},
     {"size", keep<&MapText::size>},
     {"format", keep<&MapText::format>, choice_names<kFormats>},
-    {"type", keep<&MapText::samples>, choice_names<kSamples>},
+    {"type", keep<&MapText::samples>, choice_names<kSampleChoices>},
     {"faces", keep<&MapText::faces>, choice_names<kFaces>},
     {"exposure", keep<&MapText::preview>},
     {"suffix",
@@ -45,7 +52,7 @@ const ManifestKeyRule<MapText> kMapRules[] = {
 };
 
 void read_size(const ManifestReader& reader, const MapText& map, MapRequest& request) {
-  if (request.layout == MapLayout::cube) {
+  if (request.layout != MapLayout::equirect) {
     const int edge =
         map.size ? reader.integer(*map.size, kEdge).value_or(kDefaultEdge) : kDefaultEdge;
     request.width = request.height = edge;
@@ -103,7 +110,7 @@ std::optional<MapRequest> read_map(const ManifestReader& reader, const YAML::Nod
   request.format = *format;
   read_size(reader, map, request);
   if (belongs(reader, map.samples, request.format == MapFileType::exr, "format: exr")) {
-    request.samples = reader.choice<MapSamples>(*map.samples, kSamples).value_or(MapSamples::half);
+    request.samples = reader.choice<MapSamples>(*map.samples, kSampleChoices).value_or(MapSamples::half);
   }
   if (belongs(reader, map.faces, request.layout == MapLayout::cube, "layout: cube")) {
     request.faces = reader.choice<CubeFaces>(*map.faces, kFaces).value_or(CubeFaces::strip);

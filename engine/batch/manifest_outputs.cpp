@@ -18,13 +18,17 @@ std::string kind_of(const MapRequest& map) {
   return kind;
 }
 
-// NAME[.VARIANT].KIND[.cube][.SUFFIX], below maps/.
+// NAME[.VARIANT].KIND[.LAYOUT][.SUFFIX], below maps/.
 std::string map_stem(const Manifest& manifest, const PanoramaEntry& entry, const Variant& variant,
                      const MapRequest& map) {
   std::string stem = "maps/" + entry.name;
   if (manifest.variants.size() > 1) stem += "." + variant.name;
   stem += "." + kind_of(map);
-  if (map.layout == MapLayout::cube) stem += ".cube";
+  if (map.layout == MapLayout::cube) {
+    stem += ".cube";
+  } else if (map.layout != MapLayout::equirect) {
+    stem += "." + std::string(name_of(layout_of(map)));
+  }
   if (!map.suffix.empty()) stem += "." + map.suffix;
   return stem;
 }
@@ -53,19 +57,40 @@ void check_maps(const Manifest& manifest, ManifestLog& log) {
   }
 }
 
-std::vector<std::string> all_map_files(const Manifest& manifest, const PanoramaEntry& entry) {
+// Two exports of any one panorama, and exports of a degree that a panorama has not.
+void check_exports(const Manifest& manifest, ManifestLog& log) {
+  PanoramaEntry any;
+  any.name = "NAME";
+  for (auto second = manifest.exports.begin(); second != manifest.exports.end(); ++second) {
+    const std::string file = export_file(manifest, any, manifest.variants.front(), *second);
+    for (auto first = manifest.exports.begin(); first != second; ++first) {
+      if (file != export_file(manifest, any, manifest.variants.front(), *first)) continue;
+      log.error(second->loc, fmt::format("two exports would be written to {}", in_quotes(file)),
+                fmt::format("give one a suffix; the first is on line {}", first->loc.line));
+      break;
+    }
+    const Status degree = check_export_degree(manifest, *second);
+    if (!degree) log.error(second->loc, degree.error().what, degree.error().hint);
+  }
+}
+
+std::vector<std::string> all_files(const Manifest& manifest, const PanoramaEntry& entry) {
   std::vector<std::string> all;
+  if (entry.settings->picture) all.push_back(picture_file(entry).name);
   for (const Variant& variant : manifest.variants) {
     for (const MapRequest& map : manifest.maps) {
       for (std::string& file : map_files(manifest, entry, variant, map)) {
         all.push_back(std::move(file));
       }
     }
+    for (const ExportRequest& request : manifest.exports) {
+      all.push_back(export_file(manifest, entry, variant, request));
+    }
   }
   return all;
 }
 
-// Maps of two panoramas: "a.soft" in no variant and "a" in the variant soft. One name then is the
+// Files of two panoramas: "a.soft" in no variant and "a" in the variant soft. One name then is the
 // other with a dot behind it.
 void check_panoramas(const Manifest& manifest, ManifestLog& log) {
   std::unordered_map<std::string_view, const PanoramaEntry*> by_name;
@@ -76,10 +101,10 @@ void check_panoramas(const Manifest& manifest, ManifestLog& log) {
       const auto shorter = by_name.find(name.substr(0, dot));
       if (shorter == by_name.end()) continue;
       const std::string file =
-          common_file(all_map_files(manifest, *shorter->second), all_map_files(manifest, entry));
+          common_file(all_files(manifest, *shorter->second), all_files(manifest, entry));
       if (file.empty()) continue;
       log.error(entry.origin->loc,
-                fmt::format("maps of the panoramas {} and {} would both be written to {}",
+                fmt::format("files of the panoramas {} and {} would both be written to {}",
                             in_quotes(shorter->first), in_quotes(name), in_quotes(file)),
                 "give one of the panoramas another name");
     }
@@ -102,7 +127,15 @@ void check_tables(const Manifest& manifest, const SourceLoc& loc, ManifestLog& l
       "leave npy out, or use one degree");
 }
 
-void check_colours(const Manifest& manifest, ManifestLog& log) {
+// Whether the linear keys of an entry and a variant make sense together.
+Status check_linear(const EntrySettings& settings, const Variant& variant) {
+  SHOAL_RETURN_IF_ERROR(combined_matrix(colour_of(settings, variant)));
+  SHOAL_RETURN_IF_ERROR(turn_of(settings, variant));
+  for (const AnalyticLight& light : settings.lights) SHOAL_RETURN_IF_ERROR(check_light(light));
+  return {};
+}
+
+void check_linear_keys(const Manifest& manifest, ManifestLog& log) {
   const EntrySettings* checked = nullptr;
   const SourceLoc* told = nullptr;
   for (const PanoramaEntry& entry : manifest.entries) {
@@ -110,10 +143,10 @@ void check_colours(const Manifest& manifest, ManifestLog& log) {
     checked = entry.settings.get();
     const SourceLoc& loc = entry.origin->loc;
     for (const Variant& variant : manifest.variants) {
-      const auto matrix = combined_matrix(colour_of(*entry.settings, variant));
+      const Status sound = check_linear(*entry.settings, variant);
       const bool is_told = told && told->file == loc.file && told->line == loc.line;
-      if (matrix || is_told) continue;
-      log.error(loc, matrix.error().what, matrix.error().hint);
+      if (sound || is_told) continue;
+      log.error(loc, sound.error().what, sound.error().hint);
       told = &loc;
     }
   }
@@ -123,31 +156,43 @@ void check_colours(const Manifest& manifest, ManifestLog& log) {
 
 void check_outputs(const Manifest& manifest, const SourceLoc& tables_loc, ManifestLog& log) {
   check_maps(manifest, log);
+  check_exports(manifest, log);
   check_panoramas(manifest, log);
   check_tables(manifest, tables_loc, log);
-  check_colours(manifest, log);
+  check_linear_keys(manifest, log);
 }
 
-ColourOperations colour_of(const EntrySettings& settings, const Variant& variant) {
-  const LinearKeys& base = settings.linear;
-  const LinearKeys& over = variant.linear;
-  ColourOperations colour;
-  colour.exposure_stops = over.exposure_stops.value_or(base.exposure_stops.value_or(0.0));
-  colour.scale = over.scale.value_or(base.scale.value_or(1.0));
-  colour.matrix = over.matrix.value_or(base.matrix.value_or(glm::dmat3(1.0)));
-  colour.white = over.white ? over.white : base.white;
-  return colour;
-}
-
-Frame frame_of(const EntrySettings& settings, const Variant& variant) {
-  return variant.linear.frame.value_or(settings.linear.frame.value_or(Frame{}));
+Layout layout_of(const MapRequest& map) {
+  switch (map.layout) {
+    case MapLayout::equirect:
+      break;
+    case MapLayout::cube:
+      return map.faces == CubeFaces::files ? Layout::cube_faces : Layout::cube_horizontal_strip;
+    case MapLayout::cube_vertical_cross:
+      return Layout::cube_vertical_cross;
+    case MapLayout::cube_horizontal_cross:
+      return Layout::cube_horizontal_cross;
+    case MapLayout::cube_vertical_strip:
+      return Layout::cube_vertical_strip;
+    case MapLayout::cube_horizontal_strip:
+      return Layout::cube_horizontal_strip;
+    case MapLayout::angular:
+      return Layout::angular;
+    case MapLayout::mirror_ball:
+      return Layout::mirror_ball;
+    case MapLayout::octahedral:
+      return Layout::octahedral;
+    case MapLayout::octahedral_equal_area:
+      return Layout::octahedral_equal_area;
+  }
+  return Layout::equirect;
 }
 
 std::vector<std::string> map_files(const Manifest& manifest, const PanoramaEntry& entry,
                                    const Variant& variant, const MapRequest& map) {
   const std::string stem = map_stem(manifest, entry, variant, map);
   const std::string end = "." + std::string(kExtensions[static_cast<int>(map.format)]);
-  if (map.layout != MapLayout::cube || map.faces == CubeFaces::strip) return {stem + end};
+  if (layout_of(map) != Layout::cube_faces) return {stem + end};
   std::vector<std::string> files;
   for (const std::string_view face : kCubeFaceNames) {
     files.push_back(fmt::format("{}.{}{}", stem, face, end));

@@ -6,7 +6,7 @@
 
 namespace shoal {
 
-// Tells maps that would have one file's name, tables that cannot hold what is asked for, and
+// Tells maps and exports that would have one file's name, exports that want a higher degree, tables that cannot hold what is asked for, and
 // colours that come out infinite. `tables_loc` is the place of tables:, which may be none.
 void check_outputs(const Manifest& manifest, const SourceLoc& tables_loc, ManifestLog& log);
 

@@ -11,7 +11,7 @@
 
 #include "batch/fingerprint.h"
 #include "batch/glob.h"
-#include "core/content_hash.h"
+#include "batch/input_files.h"
 
 namespace shoal {
 namespace {
@@ -62,7 +62,10 @@ Result<Known> read_known(const Manifest& manifest, Store* store) {
     }
     const std::size_t index = found->second;
     compare(manifest, manifest.entries[index], row, parameters, known.entries[index]);
-    if (!manifest.maps.empty()) index_by_id.emplace(row.id, index);
+    if (!manifest.maps.empty() || !manifest.exports.empty() ||
+        manifest.entries[index].settings->picture) {
+      index_by_id.emplace(row.id, index);
+    }
   }));
   SHOAL_RETURN_IF_ERROR(store->for_each_output([&](std::int64_t id, OutputRecord output) {
     const auto found = index_by_id.find(id);
@@ -88,7 +91,7 @@ Status find_input(const Before& before, Store& store, const PlanOptions& options
     item.input = std::move(known);
     return {};
   }
-  auto hash = hash_file(item.entry->file);
+  auto hash = hash_panorama(item.entry->file, item.entry->settings->projection.layout);
   if (!hash) return {};
   state.content_hash = std::move(*hash);
   item.input_is_news = known != state;
@@ -104,7 +107,8 @@ Status decide(const Manifest& manifest, const Before& before, Store* store,
     item.reason = reason;
     return {};
   };
-  auto state = input_state(item.entry->file);
+  const bool has_file = !item.entry->file.empty();
+  auto state = has_file ? entry_state(*item.entry) : InputState{};
   if (state) item.input_size = state->size;
   if (!before.is_known) return needs(ItemWork::all, "new");
   if (options.force == PlanOptions::Force::yes) return needs(ItemWork::all, "forced");
@@ -113,12 +117,17 @@ Status decide(const Manifest& manifest, const Before& before, Store* store,
   if (!state) return needs(ItemWork::all, "its file cannot be read");
   if (!before.same_algorithm) return needs(ItemWork::all, "shoal computes differently now");
   if (!before.same_parameters) return needs(ItemWork::all, "its parameters changed");
-  SHOAL_RETURN_IF_ERROR(find_input(before, *store, options, *state, item));
+  if (has_file) {
+    SHOAL_RETURN_IF_ERROR(find_input(before, *store, options, *state, item));
+  } else {
+    item.input = InputState{};
+  }
   if (!item.input) return needs(ItemWork::all, "its file cannot be read");
   if (item.input->content_hash != before.input_hash) {
     return needs(ItemWork::all, "its file's content changed");
   }
-  if (!before.same_outputs) return needs(ItemWork::outputs, "its maps are asked for differently");
+  if (!before.same_outputs)
+    return needs(ItemWork::outputs, "its outputs are asked for differently");
   if (!outputs_stand(manifest.output, before.outputs)) {
     return needs(ItemWork::outputs, "a file that it wrote is missing or has another size");
   }
@@ -164,6 +173,7 @@ EntryIndex index_entries(const Manifest& manifest) {
 }
 
 std::string stored_path(const PanoramaEntry& entry) {
+  if (entry.file.empty()) return "";
   // A file that a glob found is spelt normally already; std::filesystem takes 5 us to see that, and
   // a run over a large library asks three times a file.
   if (is_normal(entry.file)) {

@@ -18,7 +18,7 @@ namespace shoal {
 // How much of an item has to be done.
 enum class ItemWork {
   none,     // up to date
-  outputs,  // its projection holds; its maps have to be written anew
+  outputs,  // its projection holds; its maps and exports have to be written anew
   all,
 };
 
@@ -27,7 +27,8 @@ struct PlannedItem {
   ItemWork work = ItemWork::all;
   std::string_view reason;          // for people: "new", "its file's content changed", "up to date"
   std::uint64_t input_size = 0;     // bytes; 0 where the file cannot be asked
-  std::optional<InputState> input;  // of the file as it is now, where its content's hash is known
+  std::optional<InputState> input;  // of the file as it is now, where its content's hash is known;
+                                    // empty for an entry without a file
   bool input_is_news = false;       // the store does not know `input` yet
 };
 
@@ -58,7 +59,8 @@ Result<Plan> make_plan(const Manifest& manifest, Store* store, const PlanOptions
 using EntryIndex = std::unordered_map<std::string_view, std::size_t>;
 [[nodiscard]] EntryIndex index_entries(const Manifest& manifest);
 
-// The entry's file as the store knows it: absolute, so that a run from another folder finds it.
+// The entry's file as the store knows it: absolute, so that a run from another folder finds it;
+// empty where it has none.
 [[nodiscard]] std::string stored_path(const PanoramaEntry& entry);
 
 // Whether all of these files are there with the sizes that they were written with.

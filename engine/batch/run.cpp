@@ -7,10 +7,13 @@
 #include <utility>
 
 #include "batch/fingerprint.h"
+#include "batch/input_files.h"
 #include "batch/item_outputs.h"
 #include "batch/leftovers.h"
+#include "batch/painted_light.h"
 #include "batch/run_tables.h"
 #include "batch/scheduler.h"
+#include "batch/variant_light.h"
 #include "core/content_recorder.h"
 #include "core/input_file.h"
 #include "core/version.h"
@@ -92,17 +95,25 @@ class Run {
   std::int64_t pixel_count_ = 0;
   std::uint64_t byte_count_ = 0;
   std::int64_t map_count_ = 0;
+  std::int64_t export_count_ = 0;
 };
 
 Result<std::unique_ptr<PanoramaProjection>> Run::open(std::size_t index) {
   const PlannedItem& item = *items_[index];
   began_[index] = Clock::now();
   progress_.begin_panorama(item.entry->name);
-  if (item.work == ItemWork::outputs) return std::unique_ptr<PanoramaProjection>();
+  const EntrySettings& settings = *item.entry->settings;
+  if (item.work == ItemWork::outputs || settings.origin == LightOrigin::lights) {
+    return std::unique_ptr<PanoramaProjection>();
+  }
+  if (settings.origin == LightOrigin::sky) {
+    return PanoramaProjection::open(painted_sky(item.entry->name, *settings.sky),
+                                    settings.projection, tables_);
+  }
   Opened& opened = opened_[index];
-  if (auto state = input_state(item.entry->file)) opened.state = *state;
+  if (auto state = entry_state(*item.entry)) opened.state = *state;
   ReadOptions read = item.entry->settings->read;
-  if (!knows_hash(item, opened.state)) {
+  if (!knows_hash(item, opened.state) && is_one_file(*item.entry)) {
     opened.recorder = read.recorder = std::make_shared<ContentRecorder>();
   }
   return PanoramaProjection::open(item.entry->file, read, item.entry->settings->projection,
@@ -112,11 +123,15 @@ Result<std::unique_ptr<PanoramaProjection>> Run::open(std::size_t index) {
 // Asks for what open() will read soon.
 void Run::prefetch(std::size_t index, std::uint64_t limit) {
   const PlannedItem& item = *items_[index];
-  if (item.work == ItemWork::all) prefetch_file(item.entry->file, limit);
+  if (item.work == ItemWork::all && !item.entry->file.empty())
+    prefetch_file(item.entry->file, limit);
 }
 
 Result<Projection> Run::projection_of(const PlannedItem& item, PanoramaProjection* projection) {
   if (projection != nullptr) return projection->finish();
+  if (item.entry->settings->origin == LightOrigin::lights) {
+    return lights_alone(*item.entry->settings);
+  }
   const std::scoped_lock lock(mutex_);
   SHOAL_ASSIGN_OR_RETURN(stored, store_.find_projection(item.entry->name));
   if (stored) return std::move(*stored);
@@ -129,15 +144,20 @@ Result<Projection> Run::projection_of(const PlannedItem& item, PanoramaProjectio
 // what was opened.
 Result<InputState> Run::input_of(std::size_t index) {
   const PlannedItem& item = *items_[index];
+  if (item.entry->file.empty()) return InputState{};
   if (item.work == ItemWork::outputs) return *item.input;
   auto [state, recorder] = std::move(opened_[index]);
   if (recorder) {
     SHOAL_ASSIGN_OR_RETURN(hash, recorder->digest(item.entry->file));
     state.content_hash = std::move(hash);
-  } else {
+  } else if (knows_hash(item, state)) {
     state.content_hash = item.input->content_hash;
+  } else {
+    SHOAL_ASSIGN_OR_RETURN(
+        hash, hash_panorama(item.entry->file, item.entry->settings->projection.layout));
+    state.content_hash = std::move(hash);
   }
-  SHOAL_ASSIGN_OR_RETURN(now, input_state(item.entry->file));
+  SHOAL_ASSIGN_OR_RETURN(now, entry_state(*item.entry));
   if (same_time(now, state)) return std::move(state);
   return Error{ErrorCode::unreadable, "changed while it was read", item.entry->file, "run again"};
 }
@@ -167,11 +187,14 @@ Status Run::complete(std::size_t index, PanoramaProjection* projection) {
   SHOAL_ASSIGN_OR_RETURN(result, projection_of(item, projection));
   SHOAL_ASSIGN_OR_RETURN(input, input_of(index));
   const Clock::time_point write_begin = Clock::now();
-  SHOAL_ASSIGN_OR_RETURN(outputs, write_item_maps(manifest_, *item.entry, result, stop_));
+  SHOAL_ASSIGN_OR_RETURN(outputs, write_item_outputs(manifest_, *item.entry, result, stop_));
+
+  SHOAL_ASSIGN_OR_RETURN(quality, item_quality(manifest_, *item.entry, result));
 
   ItemRecord done = record_of(item, ItemStatus::done);
+  done.quality = std::move(quality);
   done.state.input_hash = input.content_hash;
-  done.input = input;
+  if (!item.entry->file.empty()) done.input = input;
   done.state.outputs = outputs;
   done.projection = &result;
   done.timings.write_seconds = seconds_since(write_begin);
@@ -194,7 +217,9 @@ Status Run::complete(std::size_t index, PanoramaProjection* projection) {
     ++done_count_;
     pixel_count_ += event.pixels;
     byte_count_ += event.bytes;
-    map_count_ += static_cast<std::int64_t>(outputs.size());
+    for (const OutputRecord& output : outputs) {
+      ++(output.kind.starts_with("export:") ? export_count_ : map_count_);
+    }
   }
   progress_.end_panorama(event);
   return {};
@@ -248,6 +273,7 @@ void Run::report(RunSummary& summary) const {
   summary.pixel_count = pixel_count_;
   summary.byte_count = byte_count_;
   summary.map_count = map_count_;
+  summary.export_count = export_count_;
   summary.interrupted = stop_ && !stopped_by_failure_;
   for (std::size_t i = 0; i < items_.size(); ++i) {
     const std::string& name = items_[i]->entry->name;

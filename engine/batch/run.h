@@ -38,7 +38,8 @@ struct RunSummary {
   std::vector<PanoramaNote> warnings;
   std::int64_t missing_count = 0;   // of the manifest, but not in the tables
   std::vector<std::string> tables;  // paths
-  std::int64_t map_count = 0;       // files written
+  std::int64_t map_count = 0;       // maps and pictures written; the next: exports
+  std::int64_t export_count = 0;
   bool interrupted = false;
 };
 

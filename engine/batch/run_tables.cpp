@@ -7,8 +7,11 @@
 #include "batch/fingerprint.h"
 #include "batch/item_outputs.h"
 #include "batch/plan.h"
+#include "batch/variant_light.h"
 #include "core/content_hash.h"
 #include "output/coefficient_table.h"
+#include "output/light_table.h"
+#include "output/quality_table.h"
 
 namespace shoal {
 namespace {
@@ -20,10 +23,19 @@ std::filesystem::path table_path(const Manifest& manifest, TableFormat format) {
   return manifest.output / ("coefficients." + std::string(name_of(format)));
 }
 
+std::string_view name_of(FigureTable table) {
+  return table == FigureTable::lights ? "lights" : "quality";
+}
+
+std::filesystem::path table_path(const Manifest& manifest, FigureTable table) {
+  return manifest.output / (std::string(name_of(table)) + ".csv");
+}
+
 // An entry's projection in the store, and what it was projected from.
 struct Projected {
   std::int64_t item = 0;
   std::string input_hash;
+  bool quality_stands = false;  // the store's figures of quality are of the manifest's variants
 };
 
 // The entries that the tables hold, and a hash of all that the tables are a function of.
@@ -31,6 +43,7 @@ struct TableContent {
   struct Row {
     const PanoramaEntry* entry;
     std::int64_t item;  // in the store
+    bool quality_stands;
   };
   std::vector<Row> rows;
   std::int64_t missing_count = 0;
@@ -51,7 +64,10 @@ Result<std::vector<std::optional<Projected>>> projected_entries(const Manifest& 
         row.parameters != parameters.of(manifest.entries[found->second])) {
       return;
     }
-    projected[found->second] = {row.id, std::string(row.input_hash)};
+    const bool quality_stands =
+        asks_for(manifest, FigureTable::quality) &&
+        row.output_hash == output_hash(manifest, manifest.entries[found->second]);
+    projected[found->second] = {row.id, std::string(row.input_hash), quality_stands};
   }));
   return projected;
 }
@@ -68,7 +84,7 @@ Result<TableContent> table_content(const Manifest& manifest, Store& store) {
       ++content.missing_count;
       continue;
     }
-    content.rows.push_back({&entry, projected[i]->item});
+    content.rows.push_back({&entry, projected[i]->item, projected[i]->quality_stands});
     hasher.update(std::to_string(entry.name.size()) + ":" + entry.name);
     hasher.update(projected[i]->input_hash);
     hasher.update(parameters.of(entry));
@@ -76,26 +92,105 @@ Result<TableContent> table_content(const Manifest& manifest, Store& store) {
   }
   for (const TableFormat format : manifest.tables)
     hasher.update(std::string(name_of(format)) + " ");
+  for (const FigureTable figures : manifest.figure_tables) {
+    hasher.update(std::string(name_of(figures)) + " ");
+  }
   hasher.update(std::to_string(kAlgorithmVersion));
   content.hash = hasher.digest();
   return content;
 }
 
+// The tables on their way.
+struct Writers {
+  std::vector<std::unique_ptr<TableWriter>> coefficients;  // by the manifest's tables
+  std::optional<QualityTable> quality;
+  std::optional<LightTable> lights;
+};
+
+Result<Writers> create_tables(const Manifest& manifest) {
+  Writers writers;
+  for (const TableFormat format : manifest.tables) {
+    SHOAL_ASSIGN_OR_RETURN(
+        writer, create_table(format, table_path(manifest, format), VariantColumn::present));
+    writers.coefficients.push_back(std::move(writer));
+  }
+  if (asks_for(manifest, FigureTable::quality)) {
+    SHOAL_ASSIGN_OR_RETURN(table,
+                           QualityTable::create(table_path(manifest, FigureTable::quality)));
+    writers.quality = std::move(table);
+  }
+  if (asks_for(manifest, FigureTable::lights)) {
+    SHOAL_ASSIGN_OR_RETURN(table, LightTable::create(table_path(manifest, FigureTable::lights)));
+    writers.lights = std::move(table);
+  }
+  return writers;
+}
+
+// The figures of an entry that this run left alone may be of other variants than the manifest's.
+Status append_quality(const Manifest& manifest, const TableContent::Row& row,
+                      const Projection& projection, Store& store, QualityTable& table) {
+  auto figures = row.quality_stands ? store.find_quality(row.item)
+                                    : item_quality(manifest, *row.entry, projection);
+  if (!figures) return std::move(figures).error();
+  for (std::size_t i = 0; i < figures->size(); ++i) {
+    VariantQuality& figure = (*figures)[i];
+    SHOAL_RETURN_IF_ERROR(table.append({row.entry->name, figure.variant, std::move(figure.quality),
+                                        frame_of(*row.entry->settings, manifest.variants[i]),
+                                        projection.pixels.nonfinite_count,
+                                        projection.pixels.negative_count,
+                                        projection.pixels.clamped_count}));
+  }
+  return {};
+}
+
 Status append_row(const Manifest& manifest, const TableContent::Row& row, Store& store,
-                  const std::vector<std::unique_ptr<TableWriter>>& writers) {
+                  Writers& writers) {
   const PanoramaEntry& entry = *row.entry;
   SHOAL_ASSIGN_OR_RETURN(projection, store.find_projection(row.item));
   if (!projection) {
     return Error{ErrorCode::malformed, "the projection of " + entry.name + " is missing",
                  (manifest.output / kStoreFileName).string(), "run with --force"};
   }
+  if (writers.quality) {
+    SHOAL_RETURN_IF_ERROR(append_quality(manifest, row, *projection, store, *writers.quality));
+  }
+  if (writers.lights) {
+    SHOAL_ASSIGN_OR_RETURN(lights, standout_lights(*projection, entry));
+    SHOAL_RETURN_IF_ERROR(writers.lights->append(lights));
+  }
+  if (writers.coefficients.empty()) return {};
   return make_item_records(manifest, entry, *projection,
                            [&](const CoefficientRecord& record) -> Status {
-                             for (const auto& writer : writers) {
+                             for (const auto& writer : writers.coefficients) {
                                SHOAL_RETURN_IF_ERROR(writer->append(record));
                              }
                              return {};
                            });
+}
+
+OutputRecord output_record(const Manifest& manifest, const WrittenFile& file,
+                           std::string_view table) {
+  return {file.path.lexically_relative(manifest.output).string(), "table:" + std::string(table),
+          file.content_hash, file.size};
+}
+
+Result<std::vector<OutputRecord>> commit_tables(const Manifest& manifest, Writers& writers) {
+  std::vector<OutputRecord> outputs;
+  for (std::size_t i = 0; i < writers.coefficients.size(); ++i) {
+    SHOAL_ASSIGN_OR_RETURN(files, writers.coefficients[i]->commit());
+    for (const WrittenFile& file : files) {
+      outputs.push_back(output_record(manifest, file, name_of(manifest.tables[i])));
+    }
+  }
+  if (writers.quality) {
+    SHOAL_ASSIGN_OR_RETURN(file, writers.quality->commit());
+    outputs.push_back(output_record(manifest, file, name_of(FigureTable::quality)));
+  }
+  if (writers.lights) {
+    SHOAL_ASSIGN_OR_RETURN(file, writers.lights->commit());
+    outputs.push_back(output_record(manifest, file, name_of(FigureTable::lights)));
+  }
+  return outputs;
 }
 
 }  // namespace
@@ -107,6 +202,9 @@ Result<RunTables> write_run_tables(const Manifest& manifest, Store& store) {
   for (const TableFormat format : manifest.tables) {
     tables.paths.push_back(table_path(manifest, format).string());
   }
+  for (const FigureTable table : manifest.figure_tables) {
+    tables.paths.push_back(table_path(manifest, table).string());
+  }
   SHOAL_ASSIGN_OR_RETURN(before, store.property(kTablesProperty));
   SHOAL_ASSIGN_OR_RETURN(standing, store.run_outputs());
   if (before == content.hash && !standing.empty() && outputs_stand(manifest.output, standing)) {
@@ -117,27 +215,14 @@ Result<RunTables> write_run_tables(const Manifest& manifest, Store& store) {
   SHOAL_RETURN_IF_ERROR(store.set_run_outputs({}));
   SHOAL_RETURN_IF_ERROR(store.set_property(kTablesProperty, ""));
   SHOAL_RETURN_IF_ERROR(store.flush());
-  std::vector<std::unique_ptr<TableWriter>> writers;
-  for (const TableFormat format : manifest.tables) {
-    SHOAL_ASSIGN_OR_RETURN(
-        writer, create_table(format, table_path(manifest, format), VariantColumn::present));
-    writers.push_back(std::move(writer));
-  }
+  SHOAL_ASSIGN_OR_RETURN(writers, create_tables(manifest));
   SHOAL_RETURN_IF_ERROR(store.read_in_one([&]() -> Status {
     for (const TableContent::Row& row : content.rows) {
       SHOAL_RETURN_IF_ERROR(append_row(manifest, row, store, writers));
     }
     return {};
   }));
-  std::vector<OutputRecord> outputs;
-  for (std::size_t i = 0; i < writers.size(); ++i) {
-    SHOAL_ASSIGN_OR_RETURN(files, writers[i]->commit());
-    for (const WrittenFile& file : files) {
-      outputs.push_back({file.path.lexically_relative(manifest.output).string(),
-                         "table:" + std::string(name_of(manifest.tables[i])), file.content_hash,
-                         file.size});
-    }
-  }
+  SHOAL_ASSIGN_OR_RETURN(outputs, commit_tables(manifest, writers));
   SHOAL_RETURN_IF_ERROR(store.set_run_outputs(outputs));
   SHOAL_RETURN_IF_ERROR(store.set_property(kTablesProperty, content.hash));
   SHOAL_RETURN_IF_ERROR(store.flush());

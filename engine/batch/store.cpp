@@ -6,6 +6,7 @@
 #include "batch/store_database.h"
 #include "batch/store_outputs.h"
 #include "batch/store_projection.h"
+#include "batch/store_quality.h"
 
 namespace shoal {
 namespace {
@@ -98,10 +99,20 @@ Status replace_item(StoreConnection& store, const ItemRecord& item) {
     SHOAL_RETURN_IF_ERROR(store.run(kInsertOutput, id, output.path, output.kind,
                                     output.content_hash, static_cast<std::int64_t>(output.size)));
   }
+  SHOAL_RETURN_IF_ERROR(store.run("DELETE FROM quality WHERE item = ?", id));
+  std::int64_t position = 0;
+  for (const VariantQuality& quality : item.quality) {
+    SHOAL_ASSIGN_OR_RETURN(insert, store.statement(kInsertQuality));
+    SHOAL_RETURN_IF_ERROR(write_quality(*insert, id, position++, quality));
+  }
   SHOAL_RETURN_IF_ERROR(store.run("DELETE FROM projections WHERE item = ?", id));
+  SHOAL_RETURN_IF_ERROR(store.run("DELETE FROM suns WHERE item = ?", id));
   if (!item.projection) return {};
   SHOAL_ASSIGN_OR_RETURN(insert, store.statement(kInsertProjection));
-  return write_projection(*insert, id, *item.projection);
+  SHOAL_RETURN_IF_ERROR(write_projection(*insert, id, *item.projection));
+  if (!item.projection->sun) return {};
+  SHOAL_ASSIGN_OR_RETURN(insert_sun, store.statement(kInsertSun));
+  return write_sun(*insert_sun, id, *item.projection->sun);
 }
 
 template <typename Key>
@@ -172,6 +183,13 @@ Result<std::optional<Projection>> Store::find_projection(std::string_view name) 
 
 Result<std::optional<Projection>> Store::find_projection(std::int64_t item) {
   return find_by(*impl_, kSelectProjectionByItem, item);
+}
+
+Result<std::vector<VariantQuality>> Store::find_quality(std::int64_t item) {
+  std::vector<VariantQuality> found;
+  SHOAL_RETURN_IF_ERROR(impl_->query(
+      kSelectQuality, [&](const SqlStatement& row) { found.push_back(read_quality(row)); }, item));
+  return found;
 }
 
 Status Store::read_in_one(const std::function<Status()>& work) {

@@ -29,6 +29,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "sphere/light_quality.h"
 #include "transform/projector.h"
 
 namespace shoal {
@@ -102,12 +103,21 @@ struct ItemTimings {
   double write_seconds = 0.0;
 };
 
+// Directions in the native frame.
+struct VariantQuality {
+  std::string variant;
+  LightQuality quality;
+
+  friend bool operator==(const VariantQuality&, const VariantQuality&) = default;
+};
+
 struct ItemRecord {
   std::string name;
   ItemState state;  // done or failed
   std::string engine_version;
   ItemTimings timings;
   const Projection* projection = nullptr;  // of one that is done
+  std::vector<VariantQuality> quality;     // where it was asked for, in the variants' order
   std::optional<InputState> input;         // of its file, to be remembered as by record_input()
 };
 
@@ -154,6 +164,7 @@ class Store {
   Result<std::optional<InputState>> find_input(std::string_view path);
   Result<std::optional<Projection>> find_projection(std::string_view name);
   Result<std::optional<Projection>> find_projection(std::int64_t item);  // by ItemRow::id
+  Result<std::vector<VariantQuality>> find_quality(std::int64_t item);
 
   // Does `work`, which only reads, under one lock for all of it. A lock for each thing asked takes
   // as long as finding a projection does.
@@ -168,7 +179,8 @@ class Store {
   // Forgets all panoramas but these. Their files stay where they are.
   Status forget_others(std::span<const std::string> names);
 
-  // Takes the place of what was known of the panorama. A failed one loses projection and outputs.
+  // Takes the place of what was known of the panorama. A failed one loses projection, figures of
+  // quality and outputs.
   Status record(const ItemRecord& item);
 
   // Outputs of the whole run: tables. They take the place of those before.

@@ -45,6 +45,23 @@ std::array<double, 3> triple(const SqlStatement& row, int column) {
   return {row.real(column), row.real(column + 1), row.real(column + 2)};
 }
 
+Sun read_sun(const SqlStatement& row, int column) {
+  const auto vector = [&](int first) {
+    const auto [x, y, z] = triple(row, column + first);
+    return glm::dvec3(x, y, z);
+  };
+  Sun sun;
+  sun.direction = vector(0);
+  sun.angular_radius = row.real(column + 3);
+  sun.solid_angle = row.real(column + 4);
+  sun.irradiance = vector(5);
+  sun.flux = vector(8);
+  sun.level = row.real(column + 11);
+  sun.share = row.real(column + 12);
+  sun.texel_count = row.integer(column + 13);
+  return sun;
+}
+
 Error damaged(std::string what) {
   return Error{ErrorCode::malformed, "the store is damaged: " + std::move(what), "",
                "delete it and run again: every panorama is then processed anew"};
@@ -69,12 +86,23 @@ Result<Coefficients> read_coefficients(std::int64_t degree, std::span<const std:
 }  // namespace
 
 const char* const kInsertProjection =
-    "INSERT INTO projections VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)";
+    "INSERT INTO projections VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)";
 
 const char* const kSelectProjectionByName =
-    "SELECT projections.* FROM projections JOIN items ON items.id = item WHERE name = ?";
+    "SELECT projections.*, suns.* FROM projections JOIN items ON items.id = projections.item"
+    " LEFT JOIN suns ON suns.item = projections.item WHERE name = ?";
 
-const char* const kSelectProjectionByItem = "SELECT * FROM projections WHERE item = ?";
+const char* const kSelectProjectionByItem =
+    "SELECT projections.*, suns.* FROM projections LEFT JOIN suns ON suns.item = projections.item"
+    " WHERE projections.item = ?";
+
+const char* const kInsertSun = "INSERT INTO suns VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)";
+
+Status write_sun(SqlStatement& insert, std::int64_t item, const Sun& sun) {
+  return insert.run(item, sun.direction.x, sun.direction.y, sun.direction.z, sun.angular_radius,
+                    sun.solid_angle, sun.irradiance.r, sun.irradiance.g, sun.irradiance.b,
+                    sun.flux.r, sun.flux.g, sun.flux.b, sun.level, sun.share, sun.texel_count);
+}
 
 Status write_projection(SqlStatement& insert, std::int64_t item, const Projection& projection) {
   const PixelReport& pixels = projection.pixels;
@@ -83,13 +111,17 @@ Status write_projection(SqlStatement& insert, std::int64_t item, const Projectio
   const auto& mean = pixels.mean;
   const auto& flux = pixels.clamped_flux;
   const std::vector<double> radiance = flattened(projection.radiance);
+  const std::vector<double> finer =
+      projection.finer ? flattened(*projection.finer) : std::vector<double>();
   const std::string warnings = lines_of(projection.warnings);
-  return insert.run(item, projection.format, projection.grid.width, projection.grid.height,
-                    name_of(projection.grid.sampling), name_of(projection.quadrature),
-                    projection.solid_angle, pixels.pixel_count, pixels.nonfinite_count,
-                    pixels.negative_count, pixels.clamped_count, low[0], low[1], low[2], high[0],
-                    high[1], high[2], mean[0], mean[1], mean[2], flux[0], flux[1], flux[2],
-                    warnings, projection.radiance.degree, std::as_bytes(std::span(radiance)));
+  return insert.run(
+      item, projection.format, projection.grid.width, projection.grid.height,
+      name_of(projection.grid.sampling), name_of(projection.quadrature), projection.solid_angle,
+      pixels.pixel_count, pixels.nonfinite_count, pixels.negative_count, pixels.clamped_count,
+      low[0], low[1], low[2], high[0], high[1], high[2], mean[0], mean[1], mean[2], flux[0],
+      flux[1], flux[2], warnings, projection.radiance.degree, std::as_bytes(std::span(radiance)),
+      projection.finer ? projection.finer->degree : 0, std::as_bytes(std::span(finer)),
+      pixels.clamp_threshold, pixels.clamp_colour_shift);
 }
 
 Result<Projection> read_projection(const SqlStatement& row) {
@@ -114,6 +146,14 @@ Result<Projection> read_projection(const SqlStatement& row) {
   projection.warnings = split_lines(row.text(23));
   SHOAL_ASSIGN_OR_RETURN(radiance, read_coefficients(row.integer(24), row.blob(25)));
   projection.radiance = std::move(radiance);
+  if (const std::int64_t degree = row.integer(26); degree > 0) {
+    SHOAL_ASSIGN_OR_RETURN(finer, read_coefficients(degree, row.blob(27)));
+    projection.finer = std::move(finer);
+  }
+  projection.pixels.clamp_threshold = row.real(28);
+  projection.pixels.clamp_colour_shift = row.real(29);
+  // Items count from 1; without a sun this is NULL.
+  if (row.integer(30) != 0) projection.sun = read_sun(row, 31);
   return projection;
 }
 

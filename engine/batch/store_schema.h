@@ -85,9 +85,54 @@ CREATE TABLE projections (
   clamped_flux_r REAL, clamped_flux_g REAL, clamped_flux_b REAL,
   warnings        TEXT NOT NULL,   -- a line each
   degree          INTEGER NOT NULL,
-  radiance        BLOB NOT NULL    -- doubles, little-endian, (3, (degree+1)^2): all of R, G, B;
+  radiance        BLOB NOT NULL,   -- doubles, little-endian, (3, (degree+1)^2): all of R, G, B;
                                    -- native frame, index l(l+1)+m, linear Rec.709
+  finer_degree    INTEGER NOT NULL, -- to which the light is known for figures of quality, or 0
+  finer           BLOB,            -- of that degree, like radiance; NULL: not known any finer
+  clamp_threshold REAL,            -- that the clamp really used, 0: none
+  clamp_colour_shift REAL          -- of the mean by the clamp, in CIE u'v'
 );
+
+-- The suns that were found in pixels, those of transform/sun_light.h: native frame, linear Rec.709.
+CREATE TABLE suns (
+  item           INTEGER PRIMARY KEY REFERENCES items(id) ON DELETE CASCADE,
+  direction_x    REAL, direction_y REAL, direction_z REAL,
+  angular_radius REAL,             -- radians
+  solid_angle    REAL,
+  irradiance_r   REAL, irradiance_g REAL, irradiance_b REAL,  -- of a surface that faces it
+  flux_r         REAL, flux_g REAL, flux_b REAL,              -- integral of radiance
+  level          REAL,             -- in the file's own samples: brighter ones are the sun's
+  share          REAL,             -- of the luminance of all flux
+  texel_count    INTEGER
+);
+
+-- How well a panorama's coefficients stand for its light, and what light it is: sphere/light_quality.h
+-- of each variant where that was asked for. NULL: a figure that the light does not have.
+CREATE TABLE quality (
+  item               INTEGER NOT NULL REFERENCES items(id) ON DELETE CASCADE,
+  position           INTEGER NOT NULL,  -- of the variant in the manifest, from 0
+  variant            TEXT NOT NULL,
+  degree             INTEGER NOT NULL,  -- of the coefficients
+  error_degree       INTEGER,           -- to which the exact irradiance was known
+  rms_error          REAL,
+  max_error          REAL,
+  max_error_x REAL, max_error_y REAL, max_error_z REAL,  -- where: native frame, as all directions
+  minimum_irradiance REAL,
+  minimum_x REAL, minimum_y REAL, minimum_z REAL,
+  minimum_channel    INTEGER,           -- 0 red, 1 green, 2 blue
+  negative_fraction  REAL NOT NULL,
+  contrast           REAL,
+  mean_r REAL, mean_g REAL, mean_b REAL,
+  directionality     REAL,
+  dominant_x REAL, dominant_y REAL, dominant_z REAL,
+  dominant_r REAL, dominant_g REAL, dominant_b REAL,
+  dominant_energy    REAL,
+  key_temperature    REAL,              -- kelvin
+  fill_temperature   REAL,
+  energy_shares      TEXT NOT NULL,     -- a number a degree, each with a blank behind it
+  window_gains       TEXT NOT NULL,
+  PRIMARY KEY (item, position)
+) WITHOUT ROWID;
 
 -- Files written, by path relative to the store's folder.
 CREATE TABLE outputs (

@@ -5,6 +5,8 @@
 #include <mutex>
 
 #include "batch/fingerprint.h"
+#include "batch/input_files.h"
+#include "batch/painted_light.h"
 #include "batch/scheduler.h"
 #include "batch/store.h"
 #include "core/content_hash.h"
@@ -41,12 +43,22 @@ void check_item(const std::filesystem::path& folder, const NamedItem& item, Veri
     return;
   }
   for (const OutputRecord& output : state.outputs) check_output(folder, output, report);
-  const auto hash = hash_file(state.input_path);
+  if (state.input_path.empty()) return;
+  const auto parameters = parse_parameters(state.parameters);
+  const auto hash = hash_panorama(state.input_path,
+                                  parameters ? parameters->projection.layout : Layout::equirect);
   if (!hash) {
     report.problems.push_back(hash.error().text());
   } else if (*hash != state.input_hash) {
     report.problems.push_back(problem(state.input_path, "has changed since it was projected"));
   }
+}
+
+// Of a file, or of a sky.
+bool has_pixels(const ItemState& state) {
+  if (!state.input_path.empty()) return true;
+  const auto parameters = parse_parameters(state.parameters);
+  return parameters && parameters->sky;
 }
 
 // Projects all items anew and compares bit by bit.
@@ -61,13 +73,17 @@ void recompute(Store& store, const std::vector<NamedItem>& items, const VerifyOp
     if (!before) return before.error().text();
     if (!*before) return problem(name, "its projection is missing from the store");
     ++report.recomputed_count;
-    return (*before)->radiance == now.radiance ? ""
-                                               : problem(name, "projects to other coefficients");
+    const bool same = (*before)->radiance == now.radiance && (*before)->finer == now.finer;
+    return same ? "" : problem(name, "projects to other coefficients");
   };
   JobSteps steps;
   steps.open = [&](std::size_t index) -> Result<std::unique_ptr<PanoramaProjection>> {
     const ItemState& state = items[index].second;
     SHOAL_ASSIGN_OR_RETURN(parameters, parse_parameters(state.parameters));
+    if (parameters.sky) {
+      return PanoramaProjection::open(painted_sky(items[index].first, *parameters.sky),
+                                      parameters.projection, tables);
+    }
     return PanoramaProjection::open(state.input_path, parameters.read, parameters.projection,
                                     tables);
   };
@@ -100,8 +116,10 @@ Result<VerifyReport> verify_outputs(const std::filesystem::path& folder,
   SHOAL_ASSIGN_OR_RETURN(tables, store.run_outputs());
   for (const OutputRecord& table : tables) check_output(folder, table, report);
   if (options.recompute == VerifyOptions::Recompute::yes) {
-    std::erase_if(items,
-                  [](const NamedItem& item) { return item.second.status != ItemStatus::done; });
+    // Lights in closed form have no pixels to be projected anew.
+    std::erase_if(items, [](const NamedItem& item) {
+      return item.second.status != ItemStatus::done || !has_pixels(item.second);
+    });
     recompute(store, items, options, stop, report);
     if (stop) return Error{ErrorCode::interrupted, "interrupted", "", ""};
   }

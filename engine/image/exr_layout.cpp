@@ -127,7 +127,7 @@ Status check_chunk_bytes(const ExrPart& part, const ExrColour& colour, const std
 
 // The picture's window, the data window and what both share, in the picture's coordinates.
 void place(const ExrPart& part, ExrLayout& layout) {
-  const ExrWindow& picture = part.envmap == EXR_ENVMAP_LATLONG ? part.data : part.display;
+  const ExrWindow& picture = part.envmap ? part.data : part.display;
   layout.width = static_cast<int>(picture.width());
   layout.height = static_cast<int>(picture.height());
   layout.data_width = static_cast<int>(part.data.width());
@@ -209,7 +209,7 @@ Result<ExrLayout> lay_out_exr(const ExrContext& context, const ExrPart& part,
                               const ExrColour& colour, int rows_wanted) {
   const std::string& path = context.file().path();
   SHOAL_RETURN_IF_ERROR(check_window(part.data, "data window", path));
-  if (part.envmap != EXR_ENVMAP_LATLONG) {
+  if (!part.envmap) {
     SHOAL_RETURN_IF_ERROR(check_window(part.display, "picture", path));
   }
   SHOAL_RETURN_IF_ERROR(check_against_file(context, part));

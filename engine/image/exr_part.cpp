@@ -74,7 +74,8 @@ Status read_chunk_size(const ExrContext& context, ExrPart& part) {
 
 void read_optional_attributes(const ExrContext& context, ExrPart& part) {
   exr_envmap_t envmap{};
-  if (exr_attr_get_envmap(context.handle(), part.index, "envmap", &envmap) == EXR_ERR_SUCCESS) {
+  if (exr_attr_get_envmap(context.handle(), part.index, "envmap", &envmap) == EXR_ERR_SUCCESS &&
+      (envmap == EXR_ENVMAP_LATLONG || envmap == EXR_ENVMAP_CUBE)) {
     part.envmap = envmap;
   }
   exr_attr_chromaticities_t primaries{};

@@ -71,7 +71,6 @@ std::string unsuitable(const ExrPart& part) {
   if (part.storage == ExrStorage::deep) {
     return "holds deep data (several samples a pixel), which is not read";
   }
-  if (part.envmap == EXR_ENVMAP_CUBE) return "is a cube map, not a panorama; not read yet";
   return "";
 }
 

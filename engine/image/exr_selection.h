@@ -34,8 +34,7 @@ struct ExrSelection {
 
 // Chooses by options.part and options.layer. Without a part: the first one with R, G, B (or Y, RY,
 // BY) that is a panorama, then the first grey one.
-// Errors: usage (no such part or layer), unsupported (no colour, deep, cube map, subsampled R, G,
-// B).
+// Errors: usage (no such part or layer), unsupported (no colour, deep, subsampled R, G, B).
 Result<ExrSelection> select_exr_colour(const std::vector<ExrPart>& parts,
                                        const ReadOptions& options, const std::string& path);
 

@@ -66,7 +66,11 @@ PictureInfo describe(const ExrPicture& picture) {
   info.width = picture.layout.width;
   info.height = picture.layout.height;
   info.channel_count = picture.colour.channel_count();
-  if (picture.part.envmap == EXR_ENVMAP_LATLONG) info.positions = PixelPositions::endpoints;
+  if (picture.part.envmap) {
+    info.positions = PixelPositions::endpoints;
+    const bool is_cube = picture.part.envmap == EXR_ENVMAP_CUBE;
+    info.environment = is_cube ? EnvironmentMap::cube : EnvironmentMap::latlong;
+  }
   info.band_count = picture.layout.band_count();
   info.rows_per_band = picture.layout.rows_per_band();
   if (picture.layout.covered_fraction() < 1.0) {

@@ -143,7 +143,7 @@ std::vector<std::string> warnings_for(const oiio::Facts& facts, Encoding encodin
         "the file asks to be shown turned or mirrored (orientation {}); it is taken as stored",
         facts.orientation));
   }
-  if (facts.is_cropped) {
+  if (facts.is_cropped && !facts.is_cube) {
     warnings.emplace_back(
         "the stored pixels are not the whole frame; they are taken as the picture");
   }
@@ -169,6 +169,7 @@ class ModuleSource final : public PanoramaSource {
     info_.rows_per_band = file_->rows_per_band;
     info_.band_count = (facts.height - 1) / file_->rows_per_band + 1;
     info_.band_access = BandAccess::sequential;
+    if (facts.is_cube) info_.environment = EnvironmentMap::cube_strip;
     info_.warnings = warnings_for(facts, encoding);
   }
 

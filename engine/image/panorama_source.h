@@ -47,7 +47,16 @@ enum class ScanAxis {
 
 enum class PixelPositions {
   centers,    // half a pixel away from the border
-  endpoints,  // the border pixels lie on the poles and on the seam (EXR envmap LATLONG)
+  endpoints,  // the border pixels lie on the poles and on the seam (EXR envmap LATLONG), or on the
+              // edges of the faces (CUBE)
+};
+
+// The layout that a file itself says its picture has (EXR's envmap, a DDS cube map).
+enum class EnvironmentMap {
+  unsaid,
+  latlong,
+  cube,        // EXR: six faces one below the other in its own frame, positions endpoints
+  cube_strip,  // DDS: six square faces one below the other, +x -x +y -y +z -z as Direct3D has them
 };
 
 // Whether bands may be read in any order and by several readers at once.
@@ -59,6 +68,7 @@ struct PictureInfo {
   int height = 0;
   int channel_count = 3;  // 3 or 1 (grey)
   PixelPositions positions = PixelPositions::centers;
+  EnvironmentMap environment = EnvironmentMap::unsaid;
 
   ScanAxis scan_axis = ScanAxis::rows;
   // The samples of a scanline run from right to left (rows) or from bottom to top (columns).
@@ -94,7 +104,7 @@ class PanoramaSource {
 
 // Opens a panorama and checks its header against the file's size, before anything is allocated.
 // The format is told by the first bytes, not by the name. Errors: not_found, unreadable, malformed,
-// unsupported (deep, cube map, no colour, absurd sizes), usage (no such layer or part).
+// unsupported (deep, no colour, absurd sizes), usage (no such layer or part).
 Result<std::unique_ptr<PanoramaSource>> open_panorama(const std::filesystem::path& path,
                                                       const ReadOptions& options,
                                                       const ChunkCodecs& codecs);

@@ -9,9 +9,9 @@
 //   sun_r sun_g sun_b         irradiance of a surface that faces it
 //   sun_radiance_r .. _b      mean radiance
 //   sun_solid_angle sun_share sun_texels sun_level
-//   dominant_x .. _z          the directional light of sphere/dominant_light.h, fitted to all degrees
-//   dominant_r .. _b          irradiance of a surface that faces it
-//   directionality dominant_energy
+//   dominant_x .. _z          the directional light of sphere/dominant_light.h, fitted to all
+//   degrees dominant_r .. _b          irradiance of a surface that faces it directionality
+//   dominant_energy
 #pragma once
 
 #include <filesystem>

@@ -6,8 +6,10 @@
 //       fill_temperature,energy_shares,window_gains,nonfinite_pixels,negative_pixels,
 //       clamped_pixels`: sphere/light_quality.h says what they are. One row a record, RFC 4180
 //       quoting, "\n" line ends; a figure that the light does not have is empty; several numbers in
-//       a column (a degree each) are separated by blanks. What `shoal quality` prints has no variant.
-// JSON  {"schema": "shoal/quality", "version": 1, "records": [{...}, ...]} with the same names, null
+//       a column (a degree each) are separated by blanks. What `shoal quality` prints has no
+//       variant.
+// JSON  {"schema": "shoal/quality", "version": 1, "records": [{...}, ...]} with the same names,
+// null
 //       for what is empty, lists for several numbers.
 // Numbers are written like C's "%.17g", so they read back as the same double.
 #pragma once

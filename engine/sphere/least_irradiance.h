@@ -20,6 +20,8 @@ struct LeastIrradiance {
   double value = 1.0;
   glm::dvec3 direction{0.0, 0.0, 1.0};  // unit, in the coefficients' frame
   int channel = 0;
+
+  friend bool operator==(const LeastIrradiance&, const LeastIrradiance&) = default;
 };
 
 // Searches one panorama's irradiance, under any gains a degree. Channels without any light count

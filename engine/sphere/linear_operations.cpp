@@ -79,6 +79,13 @@ Coefficients apply_matrix(Coefficients coefficients, const glm::dmat3& matrix) {
   return coefficients;
 }
 
+Coefficients add(Coefficients a, const Coefficients& b) {
+  for (int c = 0; c < kChannelCount; ++c) {
+    for (std::size_t i = 0; i < a.channels[c].size(); ++i) a.channels[c][i] += b.channels[c][i];
+  }
+  return a;
+}
+
 Coefficients truncate(Coefficients coefficients, int degree) {
   if (degree >= coefficients.degree) return coefficients;
   coefficients.degree = degree;

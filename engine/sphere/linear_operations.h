@@ -34,6 +34,9 @@ struct ColourOperations {
 // matrix multiplies each channel and adds nothing.
 [[nodiscard]] Coefficients apply_matrix(Coefficients coefficients, const glm::dmat3& matrix);
 
+// The light of both together. Precondition: the same degree.
+[[nodiscard]] Coefficients add(Coefficients a, const Coefficients& b);
+
 // The coefficients to `degree`, or all where they end before. Precondition: degree >= 0.
 [[nodiscard]] Coefficients truncate(Coefficients coefficients, int degree);
 

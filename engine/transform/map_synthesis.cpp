@@ -1,11 +1,15 @@
 #include "transform/map_synthesis.h"
 
+#include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "sphere/basis.h"
+#include "sphere/rotation.h"
+#include "sphere/texel_geometry.h"
 #include "transform/projection_tables.h"
 
 namespace shoal {
@@ -65,25 +69,6 @@ void EquirectSynthesis::row(const Coefficients& coefficients, int row,
   }
 }
 
-glm::dvec3 cube_direction(int face, int size, int row, int column) {
-  const double s = 2.0 * (column + 0.5) / size - 1.0;
-  const double t = 2.0 * (row + 0.5) / size - 1.0;
-  switch (face) {
-    case 0:
-      return glm::normalize(glm::dvec3(1.0, -t, -s));
-    case 1:
-      return glm::normalize(glm::dvec3(-1.0, -t, s));
-    case 2:
-      return glm::normalize(glm::dvec3(s, 1.0, t));
-    case 3:
-      return glm::normalize(glm::dvec3(s, -1.0, -t));
-    case 4:
-      return glm::normalize(glm::dvec3(s, -t, 1.0));
-    default:
-      return glm::normalize(glm::dvec3(-s, -t, -1.0));
-  }
-}
-
 Status write_equirect_map(const Coefficients& coefficients, const std::filesystem::path& path,
                           const MapFile& file) {
   EquirectSynthesis synthesis(file.width, file.height, coefficients.degree);
@@ -92,15 +77,28 @@ Status write_equirect_map(const Coefficients& coefficients, const std::filesyste
   });
 }
 
-Status write_cube_map(const Coefficients& coefficients, CubePacking packing, int face,
-                      const std::filesystem::path& path, const MapFile& file) {
-  const int size = file.height;
+Coefficients facing(const Coefficients& native, const Frame& frame) {
+  return rotate(native, glm::transpose(native_to_frame(cube_frame())) * native_to_frame(frame));
+}
+
+Status write_layout_map(const Coefficients& coefficients, Layout layout, int face,
+                        const std::filesystem::path& path, const MapFile& file) {
+  const bool is_face = layout == Layout::cube_faces;
+  const int first_row = is_face ? face * file.height : 0;
+  const int height = is_face ? kCubeFaceCount * file.height : file.height;
+  auto geometry = TexelGeometry::create(layout, file.width, height);
+  if (!geometry) {
+    geometry.error().where = path.string();
+    return std::move(geometry).error();
+  }
   const Basis<double> basis(coefficients.degree);
   std::vector<double> values(coefficient_count(coefficients.degree));
   return write_map(path, file, [&](int row, const std::array<float*, kChannelCount>& planes) {
-    for (int x = 0; x < file.width; ++x) {
-      const int texel_face = packing == CubePacking::strip ? x / size : face;
-      basis.evaluate(cube_direction(texel_face, size, row, x % size), values);
+    for (float* plane : planes) std::fill_n(plane, file.width, 0.0F);
+    const int in_picture = first_row + row;
+    const TexelSpan span = geometry->span_of({in_picture, 0, 0, 1, file.width});
+    for (int x = span.begin; x < span.end; ++x) {
+      basis.evaluate(geometry->texel(in_picture, x).direction, values);
       const glm::dvec3 colour = evaluate(coefficients, values);
       for (int c = 0; c < kChannelCount; ++c) planes[c][x] = static_cast<float>(colour[c]);
     }

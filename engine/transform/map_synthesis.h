@@ -3,13 +3,14 @@
 
 #include <array>
 #include <filesystem>
-#include <glm/vec3.hpp>
 #include <memory>
 
 #include "core/result.h"
 #include "image/map_writer.h"
 #include "kernels/row_moments.h"
 #include "sphere/coefficients.h"
+#include "sphere/frame.h"
+#include "sphere/layout.h"
 #include "sphere/legendre.h"
 
 namespace shoal {
@@ -38,24 +39,18 @@ class EquirectSynthesis {
   kernels::RowMomentScratch scratch_;
 };
 
-// The direction, in the cube's own axes, of the centre of texel (column, row) of one of its faces,
-// numbered +x -x +y -y +z -z and laid out as OpenGL and Direct3D do (OpenGL 4.6 specification,
-// table 8.19).
-[[nodiscard]] glm::dvec3 cube_direction(int face, int size, int row, int column);
-
 // Writes a whole equirect map and commits it. Coefficients in the native frame.
 Status write_equirect_map(const Coefficients& coefficients, const std::filesystem::path& path,
                           const MapFile& file);
 
-// How the six faces of a cube lie in pictures.
-enum class CubePacking {
-  strip,  // one picture of 6N x N, the faces side by side in their order
-  face,   // one face a picture
-};
+// The light, in the native frame, whose cube maps have their faces named by the axes of `frame`
+// instead of those of cube_frame().
+[[nodiscard]] Coefficients facing(const Coefficients& native, const Frame& frame);
 
-// Writes one picture of a cube map: the strip, or the face of number `face`. file.height is the
-// size of a face. Coefficients in the frame whose axes the faces are named by.
-Status write_cube_map(const Coefficients& coefficients, CubePacking packing, int face,
-                      const std::filesystem::path& path, const MapFile& file);
+// Writes a map in any layout but equirect and commits it; texels that show nothing are black. Of
+// cube_faces, one face: that of number `face`, which does not matter elsewhere. Coefficients in the
+// native frame. Error: usage (a size that the layout does not have), write_failed.
+Status write_layout_map(const Coefficients& coefficients, Layout layout, int face,
+                        const std::filesystem::path& path, const MapFile& file);
 
 }  // namespace shoal

@@ -36,7 +36,7 @@ Coefficients contract(const MomentTable& table, const ProjectionWeights& weights
     for (int l = 0; l <= degree; ++l) {
       for (int m = -l; m <= l; ++m) {
         const int order = m < 0 ? -m : m;
-        const double* moments = table.column(c, m < 0 ? degree + order : order);
+        const double* moments = table.column(c, m < 0 ? table.degree() + order : order);
         result.channels[c][coefficient_index(l, m)] =
             weights.azimuth[order] *
             contract_rows(weights.polar_row_weights(l, order), moments, table.row_count, l + order);

@@ -25,6 +25,7 @@ struct MomentTable {
         row_count(rows),
         values(static_cast<std::size_t>(channels) * moment_count * rows) {}
 
+  [[nodiscard]] int degree() const { return (moment_count - 1) / 2; }
   [[nodiscard]] double* column(int channel, int moment) {
     return values.data() + (static_cast<std::size_t>(channel) * moment_count + moment) * row_count;
   }
@@ -35,7 +36,7 @@ struct MomentTable {
 
 // L_lm = azimuth[|m|] sum_i polar(l, |m|, i) moment_m[i], summed from the top row down with each
 // row's mirror image beside it; a table of one channel gives three equal ones. Preconditions: the
-// weights' degree and height are the table's.
+// weights' height is the table's, their degree L is at most the table's.
 [[nodiscard]] Coefficients contract(const MomentTable& table, const ProjectionWeights& weights);
 
 }  // namespace shoal

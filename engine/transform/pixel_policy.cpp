@@ -25,8 +25,9 @@ std::vector<std::string> warnings_of(const PixelReport& report, const PixelPolic
     const auto& flux = report.clamped_flux;
     warnings.push_back(fmt::format(
         "{} of {} pixels were clamped to {:g}, which took away {:.4g}, {:.4g}, {:.4g} of "
-        "red, green and blue flux over the sphere",
-        report.clamped_count, report.pixel_count, policy.clamp, flux[0], flux[1], flux[2]));
+        "red, green and blue flux over the sphere and moved the mean colour by {:.2g} in CIE u'v'",
+        report.clamped_count, report.pixel_count, report.clamp_threshold, flux[0], flux[1], flux[2],
+        report.clamp_colour_shift));
   }
   return warnings;
 }

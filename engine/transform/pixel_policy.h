@@ -21,6 +21,9 @@ struct PixelPolicy {
   Negative negative = Negative::keep;
   // Samples above this become this, in the file's own units; 0: no clamp.
   double clamp = 0.0;
+  // The same with the value above which all but this percentage of the sphere's solid angle lies,
+  // in [99, 100); 0: no such clamp. A clamp by value comes before it.
+  double clamp_percentile = 0.0;
 };
 
 // What was met in the pixels, in the file's own samples: before its EXPOSURE, its colour matrix or
@@ -35,6 +38,10 @@ struct PixelReport {
   std::int64_t negative_count = 0;
   std::int64_t clamped_count = 0;
   std::array<double, 3> clamped_flux{};  // integral over the sphere of what the clamp took away
+  double clamp_threshold = 0.0;          // that the clamp really used; 0: no clamp
+  // How far the clamp moved the colour of the mean radiance: the distance in the CIE 1976 (u', v')
+  // diagram, in which about 0.004 is just seen; 0 where a mean has no colour.
+  double clamp_colour_shift = 0.0;
 };
 
 // What a person should know of it, a sentence each; nothing where all was ordinary light.

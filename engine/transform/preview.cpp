@@ -252,6 +252,11 @@ Result<Preview> make_preview(const std::filesystem::path& path, const ReadOption
   const ChunkCodecs codecs = simd_chunk_codecs();
   SHOAL_ASSIGN_OR_RETURN(source, open_panorama(path, options, codecs));
   const PictureInfo& info = source->info();
+  if (info.environment == EnvironmentMap::cube ||
+      info.environment == EnvironmentMap::cube_strip) {
+    return Error{ErrorCode::unsupported, "is a cube map; previews are made of equirect panoramas",
+                 path.string(), "write it as an equirect map first: maps: [{kind: radiance}]"};
+  }
   const Sizes small = preview_sizes(info, width);
   ScanlineMeans means = means_for(info, small);
   Status gathered = gather(*source, stop, means);

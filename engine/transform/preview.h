@@ -32,7 +32,8 @@ struct Preview {
 // has where these are fewer. Texels with a channel that is not finite are left out; where nothing
 // else is covered, the preview is black. Reads the bands once, in one thread, and holds one of them
 // and a few scanlines besides the preview. `stop` ends it early.
-// Errors: those of open_panorama() and of its bands; interrupted. Precondition: width >= 1.
+// Errors: those of open_panorama() and of its bands; unsupported (EXR's envmap CUBE);
+// interrupted. Precondition: width >= 1.
 Result<Preview> make_preview(const std::filesystem::path& path, const ReadOptions& options,
                              int width, const std::atomic<bool>& stop);
 

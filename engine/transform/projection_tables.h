@@ -23,8 +23,8 @@ class ProjectionTables {
                                         int degree);
 
  private:
-  // A library has a handful of sizes; more would only hold memory.
-  static constexpr std::size_t kKept = 4;
+  // A library has a handful of sizes, and at most two degrees each; more would only hold memory.
+  static constexpr std::size_t kKept = 8;
 
   std::mutex mutex_;
   std::list<std::shared_ptr<const GridTables>> kept_;  // the one used last in front

@@ -1,8 +1,9 @@
-// From a panorama file to coefficients: bands -> row moments -> moment table -> contraction.
+// From a panorama file to coefficients: bands -> row moments -> moment table -> contraction; for
+// layouts that do not factor, bands -> sums over directions a row -> ordered sums.
 //
 // Order-invariant: every slot of the moment table is written once, by whichever worker reads its
-// row, and the contraction sums rows in a fixed order. The same bits for every number of workers,
-// band height, order of bands and SIMD target.
+// row, and rows are summed in a fixed order. The same bits for every number of workers, band
+// height, order of bands and SIMD target.
 // Accuracy: |dL_lm| <= 1e-6 * integral of |I Y_lm| against the reference twin.
 #pragma once
 
@@ -11,39 +12,42 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/result.h"
 #include "image/panorama_source.h"
+#include "sphere/analytic_lights.h"
 #include "sphere/coefficients.h"
 #include "sphere/quadrature.h"
 #include "transform/pixel_policy.h"
+#include "transform/projection_settings.h"
 #include "transform/projection_tables.h"
+#include "transform/sun_light.h"
 
 namespace shoal {
-
-enum class Arithmetic {
-  kernels,    // SIMD row moments
-  reference,  // the long-double twin: a basis function a pixel, slow, obviously correct
-};
-
-struct ProjectionSettings {
-  int degree = 2;
-  Quadrature quadrature = Quadrature::texel;
-  PixelPolicy pixels;
-  Arithmetic arithmetic = Arithmetic::kernels;
-};
 
 struct Projection {
   Coefficients
       radiance;  // native frame, linear Rec.709 (as far as the file says what its colours are)
-  EquirectGrid grid;
-  std::string format;
+  std::optional<Coefficients>
+      finer;           // the same to quality_degree, where that is higher; begins with `radiance`
+  EquirectGrid grid;   // of other layouts: their size
+  std::string format;  // for people, with the layout where it is not equirect
   Quadrature quadrature = Quadrature::texel;  // the one really used
   double solid_angle = 0.0;                   // what the weights sum to
   PixelReport pixels;
+  std::optional<Sun> sun;  // where one was asked for and found; linear Rec.709
   std::vector<std::string> warnings;
+};
+
+// A panorama that is no file.
+struct PaintedPanorama {
+  std::string name;                        // what errors call it
+  std::unique_ptr<PanoramaSource> source;  // equirect
+  // What pixels would blur: added to their projection in closed form, at any degree. Native frame.
+  std::vector<AnalyticLight> lights;
 };
 
 // One panorama on its way. Made by one worker, fed by any number, finished by one.
@@ -53,6 +57,10 @@ class PanoramaProjection {
                                                           const ReadOptions& options,
                                                           const ProjectionSettings& settings,
                                                           ProjectionTables& tables);
+  // The same of a painted one, whose layout the settings do not change.
+  static std::unique_ptr<PanoramaProjection> open(PaintedPanorama panorama,
+                                                  const ProjectionSettings& settings,
+                                                  ProjectionTables& tables);
   ~PanoramaProjection();
 
   [[nodiscard]] const PictureInfo& info() const;

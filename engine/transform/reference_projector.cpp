@@ -1,6 +1,7 @@
 #include "transform/reference_projector.h"
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <numbers>
 
 #include "sphere/gauss_legendre.h"
@@ -44,6 +45,16 @@ long double azimuth_weight(const EquirectGrid& grid, Quadrature quadrature, int 
   const long double step = 2.0L * kPi / grid.width;
   if (quadrature != Quadrature::texel || order == 0) return step;
   return 2.0L * std::sin(order * step / 2.0L) / order;
+}
+
+Coefficients rounded(int degree, const std::array<std::vector<long double>, kChannelCount>& sums) {
+  Coefficients result(degree);
+  for (int c = 0; c < kChannelCount; ++c) {
+    for (std::size_t i = 0; i < sums[c].size(); ++i) {
+      result.channels[c][i] = static_cast<double>(sums[c][i]);
+    }
+  }
+  return result;
 }
 
 }  // namespace
@@ -114,14 +125,22 @@ void ReferenceProjector::add_pixel(int row, int column,
   }
 }
 
-Coefficients ReferenceProjector::coefficients() const {
-  Coefficients result(degree_);
-  for (int c = 0; c < kChannelCount; ++c) {
-    for (std::size_t i = 0; i < sums_[c].size(); ++i) {
-      result.channels[c][i] = static_cast<double>(sums_[c][i]);
-    }
-  }
-  return result;
+Coefficients ReferenceProjector::coefficients() const { return rounded(degree_, sums_); }
+
+DirectionReference::DirectionReference(int degree)
+    : basis_(degree), values_(coefficient_count(degree)) {
+  for (auto& channel : sums_) channel.assign(values_.size(), 0.0L);
 }
+
+void DirectionReference::add_texel(const Texel& texel,
+                                   const std::array<float, kChannelCount>& sample) {
+  basis_.evaluate(glm::normalize(glm::vec<3, long double>(texel.direction)), values_);
+  for (int c = 0; c < kChannelCount; ++c) {
+    const long double light = static_cast<long double>(texel.solid_angle) * sample[c];
+    for (std::size_t i = 0; i < values_.size(); ++i) sums_[c][i] += light * values_[i];
+  }
+}
+
+Coefficients DirectionReference::coefficients() const { return rounded(basis_.degree(), sums_); }
 
 }  // namespace shoal

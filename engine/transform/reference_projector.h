@@ -6,9 +6,11 @@
 #include <span>
 #include <vector>
 
+#include "sphere/basis.h"
 #include "sphere/coefficients.h"
 #include "sphere/legendre.h"
 #include "sphere/quadrature.h"
+#include "sphere/texel_mappings.h"
 
 namespace shoal {
 
@@ -33,6 +35,21 @@ class ReferenceProjector {
   std::vector<long double> polar_;  // legendre_index(l, m): of the current row
   std::vector<long double>
       azimuth_;  // (W, 2L+1): cos(m phi_j), then sin(m phi_j), times their weight
+  std::array<std::vector<long double>, kChannelCount> sums_;
+};
+
+// The same for texels that look in any directions: sample * solid angle * Y_lm(direction).
+class DirectionReference {
+ public:
+  explicit DirectionReference(int degree);
+
+  void add_texel(const Texel& texel, const std::array<float, kChannelCount>& sample);
+
+  [[nodiscard]] Coefficients coefficients() const;
+
+ private:
+  Basis<long double> basis_;
+  std::vector<long double> values_;
   std::array<std::vector<long double>, kChannelCount> sums_;
 };
 

@@ -26,6 +26,8 @@ const std::vector<SettingsChange>& projection_changes() {
       {"degree", [](EntrySettings& s) { s.projection.degree = 3; }},
       {"midpoint", [](EntrySettings& s) { s.projection.quadrature = Quadrature::midpoint; }},
       {"fejer", [](EntrySettings& s) { s.projection.quadrature = Quadrature::fejer; }},
+      {"octahedral", [](EntrySettings& s) { s.projection.layout = Layout::octahedral; }},
+      {"any layout", [](EntrySettings& s) { s.projection.layout = Layout::automatic; }},
       {"nonfinite",
        [](EntrySettings& s) { s.projection.pixels.nonfinite = PixelPolicy::NonFinite::zero; }},
       {"negative",
@@ -33,6 +35,13 @@ const std::vector<SettingsChange>& projection_changes() {
       {"clamp", [](EntrySettings& s) { s.projection.pixels.clamp = 100.0; }},
       {"a clamp one bit away",
        [](EntrySettings& s) { s.projection.pixels.clamp = std::nextafter(100.0, 200.0); }},
+      {"clamp_percentile", [](EntrySettings& s) { s.projection.pixels.clamp_percentile = 99.9; }},
+      {"sun by top", [](EntrySettings& s) { s.projection.sun.top = 0.001; }},
+      {"sun by level", [](EntrySettings& s) { s.projection.sun.above = 10.0; }},
+      {"sun taken out",
+       [](EntrySettings& s) { s.projection.sun = {0.0, 11.0, SunSettings::Action::remove}; }},
+      {"sun replaced",
+       [](EntrySettings& s) { s.projection.sun = {0.0, 11.0, SunSettings::Action::replace}; }},
       {"reference", [](EntrySettings& s) { s.projection.arithmetic = Arithmetic::reference; }},
   };
   return kChanges;
@@ -48,6 +57,14 @@ const std::vector<std::pair<const char*, std::function<void(LinearKeys&)>>>& lin
       {"white", [](LinearKeys& k) { k.white = glm::dvec3(1, 1, 2); }},
       {"white of ones", [](LinearKeys& k) { k.white = glm::dvec3(1, 1, 1); }},
       {"frame", [](LinearKeys& k) { k.frame = *parse_frame("+z,-x,+y"); }},
+      {"yaw", [](LinearKeys& k) { k.turn = PictureTurn{10.0, 0.0, 0.0}; }},
+      {"pitch", [](LinearKeys& k) { k.turn = PictureTurn{0.0, 10.0, 0.0}; }},
+      {"hann", [](LinearKeys& k) { k.window = {WindowFit::given, {WindowKind::hann, {}}}; }},
+      {"wider", [](LinearKeys& k) { k.window = {WindowFit::given, {WindowKind::hann, 9.0}}; }},
+      {"gauss", [](LinearKeys& k) { k.window = {WindowFit::given, {WindowKind::gauss, {}}}; }},
+      {"without dominant", [](LinearKeys& k) { k.dominant = DominantPart::remove; }},
+      {"dominant alone", [](LinearKeys& k) { k.dominant = DominantPart::only; }},
+      {"auto", [](LinearKeys& k) { k.window = {WindowFit::automatic, {}}; }},
   };
   return kChanges;
 }
@@ -131,9 +148,12 @@ TEST(Fingerprint, ParametersReadBack) {
     EXPECT_EQ(read->read.encoding, expected.read.encoding);
     EXPECT_EQ(read->projection.degree, expected.projection.degree);
     EXPECT_EQ(read->projection.quadrature, expected.projection.quadrature);
+    EXPECT_EQ(read->projection.layout, expected.projection.layout);
     EXPECT_EQ(read->projection.pixels.nonfinite, expected.projection.pixels.nonfinite);
     EXPECT_EQ(read->projection.pixels.negative, expected.projection.pixels.negative);
     EXPECT_EQ(read->projection.pixels.clamp, expected.projection.pixels.clamp) << text;
+    EXPECT_EQ(read->projection.pixels.clamp_percentile, expected.projection.pixels.clamp_percentile);
+    EXPECT_EQ(read->projection.sun, expected.projection.sun);
     EXPECT_EQ(read->projection.arithmetic, expected.projection.arithmetic);
   }
 }
@@ -152,6 +172,7 @@ TEST(Fingerprint, WhatIsNoParameterTextIsAnError) {
 TEST(Fingerprint, NothingElseIsAParameter) {
   EntrySettings other;
   other.tags = {"tag"};
+  other.lights = {AmbientLight{glm::dvec3(1.0)}};
   other.read.rows_per_band = 3;
   for (const auto& [name, change] : linear_changes()) change(other.linear);
   EXPECT_EQ(parameter_text(other), parameter_text({}));

@@ -21,7 +21,7 @@ panoramas:
         ^ write "file: PATH" or "files: PATTERN"
 m.yaml:4:5: error: this entry names no panorama
       - {exposure: 1}
-        ^ say file: PATH or files: PATTERN
+        ^ say file: PATH, files: PATTERN, sky: MAPPING, or lights: LIST
 m.yaml:5:5: error: an entry names either file or files
       - {file: a.hdr, files: b.hdr}
         ^ make it two entries
@@ -201,7 +201,7 @@ panoramas: [{file: a.hdr}, {file: a.dark.hdr}]
 variants: {dark: {exposure: -1}, radiance: {}}
 maps: [{kind: radiance}, {kind: radiance, suffix: radiance}]
 )"),
-      R"(m.yaml:2:28: error: maps of the panoramas "a" and "a.dark" would both be written to "maps/a.dark.radiance.radiance.exr"
+      R"(m.yaml:2:28: error: files of the panoramas "a" and "a.dark" would both be written to "maps/a.dark.radiance.radiance.exr"
     panoramas: [{file: a.hdr}, {file: a.dark.hdr}]
                                ^ give one of the panoramas another name
 )");

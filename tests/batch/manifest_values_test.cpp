@@ -10,53 +10,24 @@ TEST_F(ManifestValues, UnknownKeys) {
   touch({"a.hdr"});
   EXPECT_EQ(messages(R"(shoal: 1
 outptu: out
-defaults: {quadratur: texel, lights: []}
+defaults: {quadratur: texel}
 degree: 4
 panoramas:
-  - {file: a.hdr, zzz: 1}
+  - {file: a.hdr}
+variants: {soft: {zzz: 1}}
 )"),
             R"(m.yaml:2:1: error: unknown key "outptu" in the manifest's top level
     outptu: out
     ^ did you mean "output"?
 m.yaml:3:12: error: unknown key "quadratur" in defaults
-    defaults: {quadratur: texel, lights: []}
+    defaults: {quadratur: texel}
                ^ did you mean "quadrature"?
-m.yaml:3:30: error: "lights" is not available yet
-    defaults: {quadratur: texel, lights: []}
-                                 ^ leave it out
 m.yaml:4:1: error: unknown key "degree" in the manifest's top level
     degree: 4
     ^ it belongs to a panorama or defaults
-m.yaml:6:19: error: unknown key "zzz" in a panorama
-      - {file: a.hdr, zzz: 1}
-                      ^ known here: file, files, name, exclude, degree, quadrature, nonfinite, negative, clamp, rgbe_decode, encoding, layer, part, tags, exposure, scale, matrix, white, frame
-)");
-}
-
-TEST_F(ManifestValues, NotAvailableYet) {
-  touch({"a.hdr"});
-  EXPECT_EQ(messages(R"(shoal: 1
-panoramas:
-  - {name: key, lights: [{disk: {radius: 10}}]}
-  - {file: a.hdr, rotate: {yaw: 90}, layout: cube}
-variants: {soft: {window: hann}}
-exports: [three]
-)"),
-            R"(m.yaml:3:17: error: "lights" is not available yet
-      - {name: key, lights: [{disk: {radius: 10}}]}
-                    ^ leave it out
-m.yaml:4:19: error: "rotate" is not available yet
-      - {file: a.hdr, rotate: {yaw: 90}, layout: cube}
-                      ^ leave it out
-m.yaml:4:38: error: "layout" is not available yet
-      - {file: a.hdr, rotate: {yaw: 90}, layout: cube}
-                                         ^ leave it out
-m.yaml:5:19: error: "window" is not available yet
-    variants: {soft: {window: hann}}
-                      ^ leave it out
-m.yaml:6:1: error: "exports" is not available yet
-    exports: [three]
-    ^ leave it out
+m.yaml:7:19: error: unknown key "zzz" in a variant
+    variants: {soft: {zzz: 1}}
+                      ^ known here: exposure, scale, matrix, white, frame, rotate, window, dominant, views
 )");
 }
 
@@ -97,7 +68,7 @@ panoramas:
     degree: two
     exposure: 1.5 EV
     scale: nan
-    clamp: {above: 3}
+    clamp: [3]
     white: 1
     matrix: [[1, 0, 0], [0, 1], [0, 0, 1]]
 )"),
@@ -113,8 +84,8 @@ m.yaml:5:15: error: exposure must be a number of stops from -100 to 100, not "1.
 m.yaml:6:12: error: scale must be a number above 0, not "nan"
         scale: nan
                ^
-m.yaml:7:12: error: clamp must be a number that is not negative, not a mapping
-        clamp: {above: 3}
+m.yaml:7:12: error: clamp must be a number that is not negative, not a list
+        clamp: [3]
                ^
 m.yaml:8:12: error: white must be a list of three numbers above 0, not "1"
         white: 1
@@ -145,7 +116,7 @@ m.yaml:2:60: error: encoding must be srgb or linear, not "sRGB"
 m.yaml:4:26: error: quantities names "irradiance" twice
     quantities: [irradiance, irradiance]
                              ^
-m.yaml:5:10: error: tables must be csv, json or npy, not "cvs"
+m.yaml:5:10: error: tables must be csv, json, npy, quality or lights, not "cvs"
     tables: [cvs]
              ^ did you mean "csv"?
 )");

@@ -188,7 +188,7 @@ TEST_F(PlanTest, MapsAskedForDifferentlyAreWrittenAnew) {
   const Ran ran = plan(library("maps: [{kind: irradiance, size: [8, 4], format: png}]\n"));
   for (const auto& [name, work] : ran.work) {
     EXPECT_EQ(work, ItemWork::outputs) << name;
-    EXPECT_EQ(ran.reasons.at(name), "its maps are asked for differently") << name;
+    EXPECT_EQ(ran.reasons.at(name), "its outputs are asked for differently") << name;
   }
 }
 

@@ -19,12 +19,21 @@ VALIDATOR = jsonschema.validators.validator_for(SCHEMA)(SCHEMA)
 RIGHT = """
 shoal: 1
 vars: {library: /data, stops: 2}
-defaults:
+defaults: {quality: 20}
+tables: [csv, quality]
 panoramas:
   - {files: ["${library}/*.hdr", x.exr], exclude: "*_t*", tags: [a], degree: "${degree}"}
-  - {file: a.hdr, name: key, exposure: "${stops}", frame: {center: +z, right: -x, up: +y}}
-variants: {plain: , dark: {exposure: -2}}
+  - {file: a.hdr, name: key, exposure: "${stops}", frame: {center: +z, right: -x, up: +y}, rotate: {yaw: 90}}
+  - name: lamp
+    window: auto
+    sun: {top: 0.001, action: replace}
+    clamp: {percentile: 99.9}
+    lights: [{disk: {direction: [0, 0, 1], radius: 10, radiance: 5}}, {ambient: {radiance: [1, 1, 1]}}]
+  - {name: noon, sky: {turbidity: 3, sun: {elevation: 55, azimuth: "${east}"}, ground: [0.2, 0.3, 0.1], size: [64, 32]}}
+  - {name: dusk, sky: {sun: {elevation: 1}}, lights: [{ambient: {radiance: 1}}], picture: {format: hdr}}
+variants: {plain: , dark: {exposure: -2, window: {hann: 4}}, set: {views: {count: 8, over: all}}, four: {views: 4}}
 quantities: irradiance
+exports: [three, {profile: gltf, options: {convolved: "no"}, frame: "+z,-x,+y", suffix: raw}]
 maps: [{kind: radiance, layout: cube, size: 32}, {kind: irradiance, size: [64, 32]}]
 """
 
@@ -33,9 +42,12 @@ MISTAKES = {
     "no version": (("shoal",), None),
     "other version": (("shoal",), 2),
     "unknown key": (("outptu",), "out"),
-    "later key": (("exports",), ["three"]),
+    "export of nothing": (("exports",), [{"suffix": "a"}]),
+    "unknown key of an export": (("exports", 1, "quantity"), "radiance"),
     "degree too high": (("panoramas", 1, "degree"), 65),
     "degree not whole": (("panoramas", 1, "degree"), 2.5),
+    "quality too high": (("defaults", "quality"), 65),
+    "no such table": (("tables",), ["figures"]),
     "degree a word": (("panoramas", 1, "degree"), "two"),
     "unknown quadrature": (("defaults",), {"quadrature": "texle"}),
     "file in defaults": (("defaults",), {"file": "a.hdr"}),
@@ -46,7 +58,31 @@ MISTAKES = {
     "white of two": (("panoramas", 1, "white"), [1, 1]),
     "matrix of two rows": (("panoramas", 1, "matrix"), [[1, 0, 0], [0, 1, 0]]),
     "frame without up": (("panoramas", 1, "frame", "up"), None),
-    "lights": (("panoramas", 1, "lights"), []),
+    "lights without a name": (("panoramas", 2, "name"), None),
+    "light of two kinds": (("panoramas", 2, "lights", 1, "cosine"), {"direction": [0, 0, 1], "radiance": 1}),
+    "disk without radius": (("panoramas", 2, "lights", 0, "disk", "radius"), None),
+    "no such light": (("panoramas", 2, "lights", 0, "lamp"), {}),
+    "sky without a name": (("panoramas", 3, "name"), None),
+    "sky without a sun": (("panoramas", 3, "sky", "sun"), None),
+    "sun without elevation": (("panoramas", 3, "sky", "sun", "elevation"), None),
+    "sun below the horizon": (("panoramas", 3, "sky", "sun", "elevation"), -3),
+    "sky too clear": (("panoramas", 3, "sky", "turbidity"), 1.5),
+    "albedo above 1": (("panoramas", 3, "sky", "ground"), 1.5),
+    "sky in a file": (("panoramas", 1, "sky"), {"sun": {"elevation": 3}}),
+    "picture of a file": (("panoramas", 1, "picture"), {}),
+    "png picture": (("panoramas", 4, "picture", "format"), "png"),
+    "sky in defaults": (("defaults",), {"sky": {"sun": {"elevation": 3}}}),
+    "axis without angle": (("panoramas", 1, "rotate"), {"axis": [0, 0, 1]}),
+    "two rotations in one": (("panoramas", 1, "rotate"), {"yaw": 1, "quaternion": [1, 0, 0, 0]}),
+    "percentile too low": (("panoramas", 1, "clamp"), {"percentile": 98}),
+    "sun of neither": (("panoramas", 1, "sun"), {"action": "keep"}),
+    "sun of both": (("panoramas", 1, "sun"), {"top": 0.001, "above": 3}),
+    "sun too large": (("panoramas", 1, "sun"), {"top": 0.1}),
+    "no such action": (("panoramas", 1, "sun"), {"top": 0.001, "action": "hide"}),
+    "no such part": (("variants", "dark", "dominant"), "none"),
+    "no such window": (("panoramas", 2, "window"), "hanning"),
+    "views in an entry": (("panoramas", 1, "views"), 3),
+    "views without count": (("variants", "set"), {"views": {"over": "all"}}),
     "degree in a variant": (("variants", "dark", "degree"), 3),
     "dot in a variant's name": (("variants", "a.b"), {}),
     "quantity twice": (("quantities",), ["radiance", "radiance"]),

@@ -41,6 +41,19 @@ inline Projection some_projection(unsigned seed, int degree) {
   pixels.nonfinite_count = 1;
   pixels.negative_count = 2;
   pixels.clamped_count = 3;
+  pixels.clamp_threshold = finite();
+  pixels.clamp_colour_shift = finite();
+  if (seed % 2 == 1) {
+    Sun sun;
+    for (glm::dvec3* vector : {&sun.direction, &sun.irradiance, &sun.flux}) {
+      *vector = {finite(), finite(), finite()};
+    }
+    for (double* value : {&sun.solid_angle, &sun.angular_radius, &sun.level, &sun.share}) {
+      *value = finite();
+    }
+    sun.texel_count = seed;
+    projection.sun = sun;
+  }
   projection.warnings = {"its EXPOSURE line is garbage", "the second warning"};
   return projection;
 }

@@ -63,6 +63,9 @@ TEST(Store, GivesBackEverythingThatWasRecorded) {
     EXPECT_EQ(back.pixels.nonfinite_count, projection.pixels.nonfinite_count);
     EXPECT_EQ(back.pixels.negative_count, projection.pixels.negative_count);
     EXPECT_EQ(back.pixels.clamped_count, projection.pixels.clamped_count);
+    EXPECT_EQ(back.pixels.clamp_threshold, projection.pixels.clamp_threshold);
+    EXPECT_EQ(back.pixels.clamp_colour_shift, projection.pixels.clamp_colour_shift);
+    EXPECT_EQ(back.sun, projection.sun);
     EXPECT_EQ(back.warnings, projection.warnings);
     EXPECT_FALSE(store->find_projection("broken")->has_value());
   }

@@ -95,8 +95,8 @@ class Life(ShoalTest):
         (self.folder / "out/maps/p03.irradiance.exr").unlink()
         out = self.expect(0, "check", "m.yaml").out
         self.assertRegex(out, r"(?m)^skip +p00  \(up to date\)$")
-        self.assertRegex(out, r"(?m)^maps +p03  \(a file")
-        self.assertIn("0 to project, 1 to write maps of, 3 up to date", out)
+        self.assertRegex(out, r"(?m)^write +p03  \(a file")
+        self.assertIn("0 to project, 1 to write files of, 3 up to date", out)
 
     def test_a_changed_map_request_decodes_nothing(self):
         self.expect(0, "run", "m.yaml")

@@ -15,8 +15,6 @@ namespace {
 
 // Files that are refused, and as what. All others must be read.
 const std::map<std::string, ErrorCode> kRefused = {
-    {"openexr-images/MultiResolution/OrientationCube.exr", ErrorCode::unsupported},
-    {"openexr-images/MultiResolution/WavyLinesCube.exr", ErrorCode::unsupported},
     {"openexr-images/TestImages/WideFloatRange.exr", ErrorCode::unsupported},  // G only
     {"openexr-testsuite/v1.7.test.interleaved.exr", ErrorCode::unsupported},   // R and Z
     {"openexr-testsuite/v1.7.test.tiled.exr", ErrorCode::unsupported},         // G and Z

@@ -216,14 +216,20 @@ TEST_F(ExrSelection, LatLongMapsAreTheirDataWindow) {
   EXPECT_TRUE(*picture == read_with_imf(path_, recipe.channels, 0, PictureWindow::data));
 }
 
-TEST_F(ExrSelection, CubeMapsAreRefused) {
+// Its picture is the data window, too.
+TEST_F(ExrSelection, CubeMapsSayThatTheyAre) {
   ExrRecipe recipe;
-  recipe.data = recipe.display = {{0, 0}, {7, 47}};
+  recipe.data = {{0, 0}, {7, 47}};
+  recipe.display = {{0, 0}, {15, 15}};
   Imf::Header header = make_header(recipe);
   Imf::addEnvmap(header, Imf::ENVMAP_CUBE);
   write_exr(path_, recipe, make_raw(8, 48, recipe.types, 1), &header);
-  EXPECT_EQ(error_of().code, ErrorCode::unsupported);
-  EXPECT_THAT(error_of().what, HasSubstr("cube map, not a panorama"));
+  const auto source = open();
+  ASSERT_TRUE(source);
+  EXPECT_EQ((*source)->info().environment, EnvironmentMap::cube);
+  EXPECT_EQ((*source)->info().positions, PixelPositions::endpoints);
+  EXPECT_EQ((*source)->info().width, 8);
+  EXPECT_EQ((*source)->info().height, 48);
 }
 
 TEST_F(ExrSelection, SubsampledColourIsRefused) {

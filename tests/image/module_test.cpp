@@ -285,5 +285,41 @@ TEST_F(ModuleLoading, SearchPath) {
   EXPECT_THAT(folders[3].string(), ::testing::EndsWith("/shoal"));
 }
 
+// Six faces of 2 x 2 texels, B G R A: a strip with +x on top, and told as such.
+TEST_F(Module, DdsCubeMapsAreStrips) {
+  constexpr int kEdge = 2;
+  std::string bytes = "DDS ";
+  const auto add = [&](std::initializer_list<std::uint32_t> words) {
+    for (const std::uint32_t word : words) {
+      for (int k = 0; k < 4; ++k) bytes += static_cast<char>(word >> (8 * k) & 0xff);
+    }
+  };
+  add({124, 0x100f, kEdge, kEdge, 4 * kEdge, 0, 0});
+  bytes.append(44, '\0');
+  add({32, 0x41, 0, 32, 0xff0000, 0xff00, 0xff, 0xff000000, 0x1008, 0xfe00, 0, 0, 0});
+  for (int face = 0; face < 6; ++face) {
+    for (int texel = 0; texel < kEdge * kEdge; ++texel) {
+      const auto blue = static_cast<char>(40 * face);
+      bytes += {blue, '\0', static_cast<char>(texel), '\xff'};
+    }
+  }
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "cube.dds", bytes);
+  ReadOptions options;
+  options.encoding = Encoding::linear;
+  const auto source = open_with_module(folder / "cube.dds", options);
+  ASSERT_TRUE(source) << source.error().text();
+  EXPECT_EQ((*source)->info().environment, EnvironmentMap::cube_strip);
+  EXPECT_TRUE((*source)->info().warnings.empty());
+  const auto pixels = test::read_all(**source);
+  ASSERT_TRUE(pixels) << pixels.error().text();
+  ASSERT_EQ(pixels->width, kEdge);
+  ASSERT_EQ(pixels->height, 6 * kEdge);
+  for (int i = 0; i < 6 * kEdge * kEdge; ++i) {
+    EXPECT_FLOAT_EQ(pixels->values[3 * i], static_cast<float>(i % 4) / 255.0F);
+    EXPECT_FLOAT_EQ(pixels->values[3 * i + 2], static_cast<float>(40 * (i / 4)) / 255.0F);
+  }
+}
+
 }  // namespace
 }  // namespace shoal

@@ -1,22 +1,16 @@
 #include "app/hann_window.h"
 
-#include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "sphere/degree_window.h"
 #include "sphere/linear_operations.h"
 
 namespace shoal::viz {
 
 Coefficients hann_windowed(Coefficients coefficients, std::optional<int> degree) {
   if (degree) coefficients = truncate(std::move(coefficients), *degree);
-  for (int l = 1; l <= coefficients.degree; ++l) {
-    const double gain = 0.5 * (1.0 + std::cos(std::numbers::pi * l / (coefficients.degree + 1)));
-    for (int m = -l; m <= l; ++m) {
-      for (auto& channel : coefficients.channels) channel[coefficient_index(l, m)] *= gain;
-    }
-  }
-  return coefficients;
+  const auto gains = window_gains({WindowKind::hann, {}}, coefficients.degree);
+  return apply_gains(std::move(coefficients), gains);
 }
 
 Library hann_windowed(const Library& library, std::span<const std::size_t> panoramas,

@@ -10,10 +10,9 @@
 
 namespace shoal::viz {
 
-// The Hann window (Sloan, "Stupid Spherical Harmonics (SH) Tricks", 2008, "Windowing"): degree l of
-// the coefficients to `degree` L, or to where they end before, times (1 + cos(pi l / (L + 1))) / 2.
-// The mean stays, degree L + 1 would be the first that is gone. It multiplies whole degrees, as the
-// clamped cosine does, so windowed irradiance is the irradiance of windowed radiance.
+// The coefficients to `degree`, or to where they end before, under the Hann window of that degree
+// (sphere/degree_window.h). It multiplies whole degrees, as the clamped cosine does, so windowed
+// irradiance is the irradiance of windowed radiance.
 [[nodiscard]] Coefficients hann_windowed(Coefficients coefficients, std::optional<int> degree);
 
 // The library with these panoramas windowed, each as a variant whose name says so. The others have

@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "sphere/linear_operations.h"
+
 namespace shoal::viz {
 
 glm::dvec3 colour_at(const Coefficients& coefficients, int i) {
@@ -18,19 +20,19 @@ glm::dvec3 mean_of(const Coefficients& coefficients) {
 glm::dvec3 dominant_vector(const Coefficients& radiance) {
   if (radiance.degree < 1) return glm::dvec3(0.0);
   const auto part = [&](int m) {
-    return glm::dot(kLuminance, colour_at(radiance, coefficient_index(1, m)));
+    return luminance(radiance, coefficient_index(1, m));
   };
   return {part(1), part(-1), part(0)};  // Y_11, Y_1-1, Y_10 are x, y, z times one factor
 }
 
 std::optional<double> dominance_of(const Coefficients& radiance) {
-  const double whole = glm::dot(kLuminance, colour_at(radiance, 0));
+  const double whole = luminance(radiance, 0);
   if (radiance.degree < 1 || whole <= 0.0) return std::nullopt;
   return glm::length(dominant_vector(radiance)) / (std::numbers::sqrt3 * whole);
 }
 
 double automatic_exposure(const Coefficients& radiance, double stops) {
-  const double mean = glm::dot(kLuminance, mean_of(radiance));
+  const double mean = luminance(mean_of(radiance));
   const double automatic = std::isfinite(mean) && mean > 0.0 ? kMeanTone / mean : 1.0;
   return automatic * std::exp2(stops);
 }

@@ -8,9 +8,6 @@
 
 namespace shoal::viz {
 
-// The luminance of linear Rec.709 (ITU-R BT.709).
-inline constexpr glm::dvec3 kLuminance{0.2126, 0.7152, 0.0722};
-
 // Coefficient i of all channels. Precondition: there is one.
 [[nodiscard]] glm::dvec3 colour_at(const Coefficients& coefficients, int i);
 

@@ -10,6 +10,7 @@
 #include "library/light.h"
 #include "sphere/irradiance.h"
 #include "sphere/legendre.h"
+#include "sphere/linear_operations.h"
 
 namespace shoal::viz {
 namespace {
@@ -17,13 +18,11 @@ namespace {
 constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 
 std::vector<double> luminance_of(const Coefficients& coefficients) {
-  std::vector<double> luminance(coefficients.channels[0].size(), 0.0);
-  for (int c = 0; c < kChannelCount; ++c) {
-    for (std::size_t i = 0; i < luminance.size(); ++i) {
-      luminance[i] += kLuminance[c] * coefficients.channels[c][i];
-    }
+  std::vector<double> values;
+  for (int i = 0; i < coefficient_count(coefficients.degree); ++i) {
+    values.push_back(luminance(coefficients, i));
   }
-  return luminance;
+  return values;
 }
 
 // Calls take(value, weight) for every direction of the grid, weight the share of the sphere.
@@ -77,7 +76,7 @@ void add_irradiance_figures(const Coefficients& radiance, LightFigures& figures)
 LightFigures light_figures(const Coefficients& radiance) {
   LightFigures figures;
   figures.mean = mean_of(radiance);
-  figures.mean_luminance = glm::dot(kLuminance, figures.mean);
+  figures.mean_luminance = luminance(figures.mean);
   add_irradiance_figures(radiance, figures);
   figures.dominance = dominance_of(radiance);
   const glm::dvec3 vector = dominant_vector(radiance);

@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "library/light.h"
+#include "sphere/linear_operations.h"
 #include "sphere/basis.h"
 
 namespace shoal::viz {
@@ -144,7 +144,7 @@ double channel_of(const glm::dvec3& rgb, Channel channel) {
     case Channel::luminance:
       break;
   }
-  return glm::dot(rgb, kLuminance);
+  return luminance(rgb);
 }
 
 std::vector<double> channel_of(std::span<const glm::dvec3> rgb, Channel channel) {

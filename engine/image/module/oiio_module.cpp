@@ -95,6 +95,9 @@ void fill_facts(const Picture& picture, Facts* facts) {
   facts->row_quantum = spec.tile_width > 0 ? spec.tile_height : 1;
   facts->is_integer = picture.fetch != Fetch::floating;
   facts->orientation = spec.get_int_attribute("Orientation", 1);
+  // A DDS cube map, of which the frame is one face. With faces missing it is no whole strip.
+  facts->is_cube = spec.get_string_attribute("textureformat") == "CubeFace Environment" &&
+                   spec.height == 6 * spec.width;
   facts->is_cropped = spec.x != spec.full_x || spec.y != spec.full_y ||
                       spec.width != spec.full_width || spec.height != spec.full_height;
   copy_text(facts->format, std::string(picture.input->format_name()) + ' ' + spec.format.c_str());

@@ -10,7 +10,7 @@
 
 namespace shoal::oiio {
 
-inline constexpr std::uint32_t kInterfaceVersion = 1;  // raised when anything below changes
+inline constexpr std::uint32_t kInterfaceVersion = 2;  // raised when anything below changes
 inline constexpr char kModuleFile[] = "shoal_oiio.so";
 inline constexpr char kEntryPoint[] = "shoal_oiio_module";
 
@@ -36,6 +36,7 @@ struct Facts {
   std::int32_t is_integer;
   std::int32_t orientation;  // as in EXIF: 1 is upright
   std::int32_t is_cropped;   // the stored pixels are not the picture's whole frame
+  std::int32_t is_cube;      // six square faces one below the other, +x -x +y -y +z -z
   char format[64];           // for people: "png uint8"
   char colour_space[64];     // what the file says of itself; may be empty
 };

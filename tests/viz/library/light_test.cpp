@@ -37,7 +37,8 @@ TEST(Exposure, BringsTheMeanToItsTone) {
 TEST(Dominance, IsOneForOneDirection) {
   const glm::dvec3 direction(0.48, -0.6, 0.64);
   const Coefficients light = light_from(direction, {3.0, 1.0, 0.5}, 3);
-  const double luminance = glm::dot(kLuminance, {3.0, 1.0, 0.5});
+  // 0.2126 R + 0.7152 G + 0.0722 B (ITU-R BT.709).
+  const double luminance = 0.2126 * 3.0 + 0.7152 * 1.0 + 0.0722 * 0.5;
   const double length = luminance * std::sqrt(0.75 / std::numbers::pi);
   EXPECT_NEAR(glm::distance(dominant_vector(light), length * direction), 0.0, 1e-14);
   EXPECT_NEAR(*dominance_of(light), 1.0, 1e-14);

@@ -1,0 +1,210 @@
+#include <fmt/format.h>
+
+#include <atomic>
+#include <cstdio>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "app/commands.h"
+#include "app/common_options.h"
+#include "app/interrupt.h"
+#include "app/messages.h"
+#include "batch/measured_error.h"
+#include "batch/scheduler.h"
+#include "batch/variant_light.h"
+#include "output/quality_table.h"
+
+namespace shoal {
+namespace {
+
+struct QualityCommand {
+  std::vector<std::string> files;
+  ComputeOptions compute;
+  int error_degree = 32;
+  std::string window = "none";
+  bool brute_force = false;
+  std::string format = "csv";
+};
+
+// How every file is looked at.
+struct QualityChoice {
+  ComputeChoice compute;
+  std::shared_ptr<const EntrySettings> settings;
+  bool brute_force = false;
+  bool json = false;
+};
+
+Result<WindowKey> window_named(const std::string& name) {
+  if (name == "auto") return WindowKey{WindowFit::automatic, {}};
+  SHOAL_ASSIGN_OR_RETURN(kind, parse_window_kind(name));
+  return WindowKey{WindowFit::given, {kind, {}}};
+}
+
+Result<QualityChoice> understand(const QualityCommand& command) {
+  QualityChoice choice;
+  SHOAL_ASSIGN_OR_RETURN(compute, understand(command.compute));
+  SHOAL_ASSIGN_OR_RETURN(window, window_named(command.window));
+  choice.compute = compute;
+  EntrySettings settings;
+  ProjectionSettings& projection = settings.projection;
+  projection.degree = compute.degree.value_or(projection.degree);
+  projection.quadrature = compute.quadrature.value_or(projection.quadrature);
+  projection.layout = compute.layout.value_or(projection.layout);
+  projection.quality_degree = command.error_degree;
+  settings.linear.window = window;
+  choice.settings = std::make_shared<EntrySettings>(std::move(settings));
+  choice.brute_force = command.brute_force;
+  choice.json = command.format == "json";
+  return choice;
+}
+
+// Tells on standard error how far a slow integral is, a line for every tenth.
+std::function<void(double)> progress_of(const std::string& file) {
+  return [file, told = 0](double share) mutable {
+    if (share * 10 < told + 1) return;
+    told = static_cast<int>(share * 10);
+    fmt::print(stderr, "{}: {} %\n", printable(file), told * 10);
+  };
+}
+
+Result<QualityRecord> figures_of(const std::string& file, const Projection& projection,
+                                 const QualityChoice& choice, const std::atomic<bool>& stop) {
+  PanoramaEntry entry;
+  entry.name = entry.file = file;
+  entry.settings = choice.settings;
+  QualityRecord record;
+  record.panorama = file;
+  record.frame = choice.compute.frame.value_or(Frame{});
+  record.nonfinite_pixels = projection.pixels.nonfinite_count;
+  record.negative_pixels = projection.pixels.negative_count;
+  record.clamped_pixels = projection.pixels.clamped_count;
+  SHOAL_ASSIGN_OR_RETURN(quality, variant_quality(projection, entry, {}));
+  record.quality = std::move(quality);
+  if (choice.brute_force) {
+    SHOAL_ASSIGN_OR_RETURN(light, variant_light(projection, entry, {}));
+    SHOAL_ASSIGN_OR_RETURN(error, measured_error(file, light.radiance, choice.settings->projection,
+                                                 choice.compute.threads, progress_of(file), stop));
+    record.quality.error = error;
+  }
+  return record;
+}
+
+// Prints what the workers find in the order of the files, as soon as that is possible.
+class OrderedFigures {
+ public:
+  OrderedFigures(const std::vector<std::string>& files, const QualityChoice& choice)
+      : files_(files), json_(choice.json), results_(files.size()) {
+    if (!json_) fmt::print("{}", quality_csv_header(VariantColumn::absent));
+    if (json_) fmt::print("{{\n\"schema\": \"shoal/quality\",\n\"version\": 1,\n\"records\": [");
+  }
+
+  void take(std::size_t index, Result<QualityRecord> result, std::vector<std::string> warnings) {
+    const std::scoped_lock lock(mutex_);
+    results_[index] = {std::move(result), std::move(warnings)};
+    for (; next_ < results_.size() && results_[next_]; ++next_) {
+      print(files_[next_], *results_[next_]);
+      results_[next_].reset();
+    }
+  }
+
+  void end() const {
+    if (json_) fmt::print("\n]\n}}\n");
+  }
+
+  [[nodiscard]] const std::vector<PanoramaNote>& failures() const { return failures_; }
+  [[nodiscard]] const std::vector<PanoramaNote>& warnings() const { return warnings_; }
+
+ private:
+  using Outcome = std::pair<Result<QualityRecord>, std::vector<std::string>>;
+
+  void print(const std::string& file, const Outcome& outcome) {
+    const auto& [record, warnings] = outcome;
+    for (const std::string& warning : warnings) warnings_.push_back({file, warning});
+    if (!record) {
+      const bool interrupted = record.error().code == ErrorCode::interrupted;
+      if (!interrupted) failures_.push_back({file, record.error().text()});
+    } else if (json_) {
+      fmt::print("{}{}", printed_++ == 0 ? "\n" : ",\n",
+                 quality_json(*record, VariantColumn::absent));
+    } else {
+      fmt::print("{}", quality_csv_row(*record, VariantColumn::absent));
+    }
+  }
+
+  const std::vector<std::string>& files_;
+  const bool json_;
+  std::mutex mutex_;  // guards what follows
+  std::vector<std::optional<Outcome>> results_;
+  std::size_t next_ = 0;
+  std::int64_t printed_ = 0;
+  std::vector<PanoramaNote> failures_;
+  std::vector<PanoramaNote> warnings_;
+};
+
+int print_quality(const QualityCommand& command) {
+  const Result<QualityChoice> choice = understand(command);
+  if (!choice) {
+    print_error(choice.error());
+    return kExitUsage;
+  }
+  OrderedFigures figures(command.files, *choice);
+  ProjectionTables tables;
+  const std::atomic<bool>& stop = stop_on_interrupt();
+  std::atomic<std::int64_t> pixels_done{0};
+  JobSteps steps;
+  steps.open = [&](std::size_t index) {
+    return PanoramaProjection::open(command.files[index], {}, choice->settings->projection, tables);
+  };
+  steps.finish = [&](std::size_t index, PanoramaProjection* projection, Status status) {
+    auto found = status ? projection->finish() : Result<Projection>(std::move(status).error());
+    if (!found) return figures.take(index, std::move(found).error(), {});
+    figures.take(index, figures_of(command.files[index], *found, *choice, stop), found->warnings);
+  };
+  // Brute force spreads one panorama over the threads.
+  run_jobs(command.files.size(), choice->brute_force ? 1 : choice->compute.threads, stop,
+           pixels_done, steps);
+  figures.end();
+  print_warnings(figures.warnings());
+  print_failures(figures.failures());
+  if (stop) return kExitInterrupted;
+  return figures.failures().empty() ? kExitOk : kExitFailed;
+}
+
+}  // namespace
+
+void add_quality_options(CLI::App& command, Action& action) {
+  auto options = std::make_shared<QualityCommand>();
+  ComputeOptions& compute = options->compute;
+  command.add_option("FILE", options->files, "Panoramas")->required();
+  command.add_option("--degree", compute.degree, "Highest degree L, 0 to 64; 2 by default")
+      ->check(CLI::Range(0, kMaxDegree));
+  command
+      .add_option("--error-degree", options->error_degree,
+                  "Degree to which the exact irradiance is known, 32 by default; above L")
+      ->check(CLI::Range(0, kMaxDegree));
+  command.add_option("--window", options->window,
+                     "none (the default), hann, lanczos, gauss, laplacian or auto");
+  command.add_flag("--brute-force", options->brute_force,
+                   "Errors against the hemisphere integral over all texels: slow, without any "
+                   "harmonics");
+  command.add_option("--quadrature", compute.quadrature, "texel, midpoint or fejer");
+  command.add_option("--layout", compute.layout, "Layout of the pictures, as for `project`");
+  command.add_option("--frame", compute.frame,
+                     "Frame of the directions: a name, or where the panorama's centre, right and "
+                     "up point, such as +z,-x,+y");
+  command.add_option("--format", options->format, "csv (the default) or json")
+      ->check(CLI::IsMember({"csv", "json"}));
+  command.add_option("-j,--threads", compute.threads, "Workers; as many as processors by default")
+      ->check(CLI::Range(1, 1024));
+  command.add_option("--target", compute.target,
+                     "SIMD target, one of `shoal targets`; changes speed, never a bit");
+  command.callback([&action, options] { action = [options] { return print_quality(*options); }; });
+}
+
+}  // namespace shoal

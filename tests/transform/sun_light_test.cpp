@@ -1,0 +1,192 @@
+// Suns found in pixels, and the ledger of their energy.
+#include "transform/sun_light.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "bright_light_fixture.h"
+#include "sphere/linear_operations.h"
+
+namespace shoal {
+namespace {
+
+using test::BrightLight;
+using test::clamp_at;
+using test::difference;
+using test::Picture;
+using test::sun_of;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr double kPi = std::numbers::pi;
+
+// A sky of radiance 1 with a disk of radiance (1001, 501, 201) around d.
+Picture sunny(int height, const glm::dvec3& d, double radius) {
+  constexpr double kSunlight[] = {1001.0, 501.0, 201.0};
+  return test::make_picture(2 * height, height, [&](int c, int i, int j) {
+    const double theta = kPi * (i + 0.5) / height, phi = kPi * (j + 0.5) / height;
+    const glm::dvec3 w(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                       std::cos(theta));
+    return glm::dot(w, d) > std::cos(radius) ? kSunlight[c] : 1.0;
+  });
+}
+
+// The disk wherever it lies: across the seam, over a pole, between. Of its rim's 40 texels of side
+// h each is in or out: by chance that is 2 h^2 of its solid angle of 130 h^2 and moves the centroid
+// by h/10, several times more where the grid is symmetric about the disk. A texel's sun is its
+// sample less that times level/value, level 1 and value 1001.
+TEST_F(BrightLight, FindsTheSunWhereverItIs) {
+  constexpr double kRadius = 0.08;
+  constexpr int kHeight = 256;
+  for (const glm::dvec3 d : {glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0.02, 0.01, -1),
+                             glm::dvec3(0.4, -0.5, 0.6)}) {
+    const glm::dvec3 direction = glm::normalize(d);
+    const auto path = write(sunny(kHeight, direction, kRadius), "sun");
+    for (const SunSettings& settings : {SunSettings{0.003, 0.0}, SunSettings{0.0, 1.0}}) {
+      const Projection result = project(path, sun_of(settings));
+      ASSERT_TRUE(result.sun) << testing::PrintToString(result.warnings);
+      const Sun& sun = *result.sun;
+      EXPECT_LT(glm::length(sun.direction - direction), 0.3 * kPi / kHeight);
+      EXPECT_NEAR(sun.angular_radius, kRadius, 0.1 * kRadius);
+      EXPECT_EQ(sun.level, 1.0);
+      const double solid_angle = 2.0 * kPi * (1.0 - std::cos(sun.angular_radius));
+      EXPECT_NEAR(sun.solid_angle, solid_angle, 1e-12);
+      for (int c = 0; c < 3; ++c) {
+        const double radiance = (c == 0 ? 1001.0 : c == 1 ? 501.0 : 201.0) * (1000.0 / 1001.0);
+        EXPECT_NEAR(sun.mean_radiance()[c], radiance, 1e-4);
+        // pi sin^2(a) for a disk; the rim of texels is another by h/a of a term a^2/4.
+        EXPECT_NEAR(sun.irradiance[c] / radiance, kPi * std::pow(std::sin(sun.angular_radius), 2),
+                    1e-4 * solid_angle);
+      }
+      const double taken = luminance(sun.flux);
+      EXPECT_NEAR(sun.share, taken / (taken + 4 * kPi), 0.002) << "the level behind is not 1";
+    }
+  }
+}
+
+// Two disks: the sun is the one that has the brightest texel, not both.
+TEST_F(BrightLight, TheSunIsOneRegion) {
+  Picture picture = test::make_picture(
+      128, 64, [](int, int i, int j) { return i > 30 && i < 34 && j > 60 && j < 64 ? 50.0 : 1.0; });
+  for (int c = 0; c < 3; ++c) picture.at(c, 32, 0) = picture.at(c, 31, 127) = 40.0F;
+  const Projection one = project(write(picture, "two"), sun_of({0.0, 10.0}));
+  ASSERT_TRUE(one.sun);
+  EXPECT_EQ(one.sun->texel_count, 9);
+  for (int c = 0; c < 3; ++c) picture.at(c, 32, 0) = 51.0F;
+  const Projection other = project(write(picture, "two"), sun_of({0.0, 10.0}));
+  ASSERT_TRUE(other.sun);
+  EXPECT_EQ(other.sun->texel_count, 2) << "corners over the seam";
+}
+
+// residual + sun = original. The flux is sqrt(4 pi) L_00, changed in double by what each texel
+// loses, so that only doubles round: 1e-13 of it. Reporting changes no bit.
+TEST_F(BrightLight, TheLedgerOfEnergyBalances) {
+  Picture picture = test::make_noisy_picture(256, 128, 4);
+  for (int i = 40; i < 44; ++i) {
+    for (int j = 50; j < 54; ++j) {
+      for (int c = 0; c < 3; ++c) picture.at(c, i, j) = 3000.0F + 500.0F * (c + i) + j;
+    }
+  }
+  const auto path = write(picture, "ledger");
+  ProjectionSettings settings = sun_of({});
+  const Projection original = project(path, settings);
+  settings.sun = {0.001, 0.0, SunSettings::Action::keep};
+  const Projection kept = project(path, settings);
+  EXPECT_TRUE(kept.radiance == original.radiance);
+  EXPECT_EQ(kept.pixels.mean, original.pixels.mean);
+  settings.sun.action = SunSettings::Action::remove;
+  const Projection removed = project(path, settings);
+  ASSERT_TRUE(kept.sun && removed.sun);
+  EXPECT_EQ(kept.sun->flux, removed.sun->flux);
+  EXPECT_NEAR(kept.sun->share, removed.sun->share, 1e-13);
+  settings.sun.action = SunSettings::Action::replace;
+  const Projection replaced = project(path, settings);
+  const double to_flux = std::sqrt(4.0 * kPi);
+  for (int c = 0; c < 3; ++c) {
+    const double whole = to_flux * original.radiance.channels[c][0];
+    const double residual = to_flux * removed.radiance.channels[c][0];
+    EXPECT_NEAR(residual + removed.sun->flux[c], whole, 1e-13 * whole);
+    EXPECT_LT(residual, 0.9 * whole) << "there is a sun to take";
+    // The disk has the sun's irradiance; its flux is the sun's but for the texels' angles to its
+    // axis, a^2/4 of it in either.
+    const double put_back = to_flux * replaced.radiance.channels[c][0] - residual;
+    const double radius = removed.sun->angular_radius;
+    EXPECT_NEAR(put_back, removed.sun->flux[c], radius * radius * removed.sun->flux[c]);
+  }
+  // At other degrees a disk differs from the region by their second moments, l(l+1)/2 times some
+  // a^2 of the sun.
+  const double radius = replaced.sun->angular_radius;
+  EXPECT_LT(difference(replaced.radiance, original.radiance),
+            8.0 * radius * radius * replaced.sun->flux.b);
+}
+
+// The sun is what it was before the clamp; what is clamped is what the sun left. So sun and clamp
+// together balance as well.
+TEST_F(BrightLight, TheLedgerBalancesWithAClampToo) {
+  const auto path = write(test::make_noisy_picture(256, 128, 6), "both");
+  const Projection original = project(path, sun_of({}));
+  for (const bool late : {true, false}) {
+    ProjectionSettings settings = sun_of({0.001, 0.0, SunSettings::Action::remove});
+    if (late) settings.pixels.clamp_percentile = 99.0;
+    if (!late) settings.pixels.clamp = 20.0;
+    const Projection both = project(path, settings);
+    ASSERT_TRUE(both.sun);
+    EXPECT_GT(both.pixels.clamped_count, 100);
+    for (int c = 0; c < 3; ++c) {
+      const double whole = std::sqrt(4.0 * kPi) * original.radiance.channels[c][0];
+      const double rest = std::sqrt(4.0 * kPi) * both.radiance.channels[c][0];
+      // A clamp by value changes what the kernels see, which round by 1e-6.
+      EXPECT_NEAR(rest + both.sun->flux[c] + both.pixels.clamped_flux[c], whole,
+                  (late ? 1e-13 : 2e-6) * whole);
+    }
+    settings.sun.action = SunSettings::Action::keep;
+    EXPECT_EQ(project(path, settings).sun->flux, both.sun->flux);
+  }
+}
+
+TEST_F(BrightLight, SaysWhyThereIsNoSun) {
+  const auto even = write(test::make_picture(64, 32, [](int, int, int) { return 3.0; }), "even");
+  EXPECT_THAT(project(even, sun_of({0.001, 0.0})).warnings,
+              ElementsAre("no sun was found: its brightest light is evenly bright over a larger "
+                          "region"));
+  EXPECT_THAT(project(even, sun_of({0.0, 5.0})).warnings,
+              ElementsAre("no sun was found: nothing is brighter than 5"));
+  EXPECT_THAT(project(even, sun_of({0.0, 2.0})).warnings,
+              ElementsAre("no sun was found: more than 1 % of the sphere is brighter than 2"));
+  const auto black = write(test::make_picture(64, 32, [](int, int, int) { return 0.0; }), "black");
+  EXPECT_THAT(project(black, clamp_at(99.9)).warnings,
+              ElementsAre("nothing was clamped: 99.9 % of the sphere are black"));
+  ProjectionSettings settings = sun_of({0.001, 0.0});
+  settings.layout = Layout::angular;
+  ProjectionTables tables;
+  const auto refused = project_panorama(
+      write(test::make_picture(32, 32, [](int, int, int) { return 1.0; }), "angular"), {}, settings,
+      tables);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().text(), HasSubstr("only be found in equirect pictures"));
+}
+
+// What is not finite, or negative and to be black, is so for the sun and the clamp as well.
+TEST_F(BrightLight, SeesPixelsAsThePolicyLeavesThem) {
+  Picture picture = sunny(128, {0, 1, 0}, 0.1);
+  picture.at(0, 10, 10) = INFINITY;
+  picture.at(2, 64, 64) = NAN;
+  picture.at(1, 64, 65) = -1e6F;
+  ProjectionSettings settings = sun_of({0.005, 0.0, SunSettings::Action::remove});
+  settings.pixels.nonfinite = PixelPolicy::NonFinite::zero;
+  settings.pixels.negative = PixelPolicy::Negative::zero;
+  const auto path = write(picture, "odd");
+  const Projection removed = project(path, settings);
+  ASSERT_TRUE(removed.sun);
+  for (int c = 0; c < 3; ++c) {
+    // All that is left is the sky, less than 1 for the black pixels.
+    EXPECT_LT(removed.radiance.channels[c][0], std::sqrt(4.0 * kPi) * (1.0 + 1e-6));
+  }
+  EXPECT_EQ(removed.sun->texel_count, std::ranges::count(picture.planes[0], 1001.0F));
+}
+
+}  // namespace
+}  // namespace shoal
