@@ -20,6 +20,12 @@
 namespace {
 
 constexpr const char* kFooter =
+    "What a manifest can ask for, beside files: layout (cube maps, crosses, strips, angular map,\n"
+    "mirror ball, octahedral), lights and sky, rotate and views, window (auto: nothing negative),\n"
+    "frame, exposure and colour, clamp by value or percentile, sun, dominant, quality; maps in "
+    "every\n"
+    "layout, exports by engine profiles, tables csv, json, npy, quality, lights.\n"
+    "manifests/README.md tells every key; `shoal profiles` lists the engines.\n\n"
     "Exit status: 0 all well; 1 a panorama failed or a check found something; 2 usage or manifest\n"
     "error, nothing run; 130 interrupted, finished work kept.\n";
 

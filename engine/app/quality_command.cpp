@@ -29,6 +29,7 @@ struct QualityCommand {
   int error_degree = 32;
   std::string window = "none";
   bool brute_force = false;
+  int rows = 129;
   std::string format = "csv";
 };
 
@@ -36,14 +37,15 @@ struct QualityCommand {
 struct QualityChoice {
   ComputeChoice compute;
   std::shared_ptr<const EntrySettings> settings;
-  bool brute_force = false;
+  int brute_force_rows = 0;  // 0: none
   bool json = false;
 };
 
 Result<WindowKey> window_named(const std::string& name) {
   if (name == "auto") return WindowKey{WindowFit::automatic, {}};
-  SHOAL_ASSIGN_OR_RETURN(kind, parse_window_kind(name));
-  return WindowKey{WindowFit::given, {kind, {}}};
+  const Result<WindowKind> kind = parse_window_kind(name);
+  if (kind) return WindowKey{WindowFit::given, {*kind, {}}};
+  return Error{ErrorCode::usage, kind.error().what, "--window", kind.error().hint + "; or auto"};
 }
 
 Result<QualityChoice> understand(const QualityCommand& command) {
@@ -52,14 +54,20 @@ Result<QualityChoice> understand(const QualityCommand& command) {
   SHOAL_ASSIGN_OR_RETURN(window, window_named(command.window));
   choice.compute = compute;
   EntrySettings settings;
+  const int degree = compute.degree.value_or(settings.projection.degree);
+  if (command.error_degree <= degree && !command.brute_force) {
+    return Error{ErrorCode::usage,
+                 fmt::format("the exact irradiance must be known beyond degree {}", degree),
+                 "--error-degree", "give a higher degree, such as 32"};
+  }
   ProjectionSettings& projection = settings.projection;
-  projection.degree = compute.degree.value_or(projection.degree);
+  projection.degree = degree;
   projection.quadrature = compute.quadrature.value_or(projection.quadrature);
   projection.layout = compute.layout.value_or(projection.layout);
   projection.quality_degree = command.error_degree;
   settings.linear.window = window;
   choice.settings = std::make_shared<EntrySettings>(std::move(settings));
-  choice.brute_force = command.brute_force;
+  choice.brute_force_rows = command.brute_force ? command.rows : 0;
   choice.json = command.format == "json";
   return choice;
 }
@@ -86,10 +94,11 @@ Result<QualityRecord> figures_of(const std::string& file, const Projection& proj
   record.clamped_pixels = projection.pixels.clamped_count;
   SHOAL_ASSIGN_OR_RETURN(quality, variant_quality(projection, entry, {}));
   record.quality = std::move(quality);
-  if (choice.brute_force) {
+  if (choice.brute_force_rows > 0) {
     SHOAL_ASSIGN_OR_RETURN(light, variant_light(projection, entry, {}));
     SHOAL_ASSIGN_OR_RETURN(error, measured_error(file, light.radiance, choice.settings->projection,
-                                                 choice.compute.threads, progress_of(file), stop));
+                                                 choice.brute_force_rows, choice.compute.threads,
+                                                 progress_of(file), stop));
     record.quality.error = error;
   }
   return record;
@@ -167,7 +176,7 @@ int print_quality(const QualityCommand& command) {
     figures.take(index, figures_of(command.files[index], *found, *choice, stop), found->warnings);
   };
   // Brute force spreads one panorama over the threads.
-  run_jobs(command.files.size(), choice->brute_force ? 1 : choice->compute.threads, stop,
+  run_jobs(command.files.size(), choice->brute_force_rows > 0 ? 1 : choice->compute.threads, stop,
            pixels_done, steps);
   figures.end();
   print_warnings(figures.warnings());
@@ -193,6 +202,10 @@ void add_quality_options(CLI::App& command, Action& action) {
   command.add_flag("--brute-force", options->brute_force,
                    "Errors against the hemisphere integral over all texels: slow, without any "
                    "harmonics");
+  command
+      .add_option("--rows", options->rows,
+                  "Of --brute-force: R x 2R directions, 129 rows by default; time grows with R^2")
+      ->check(CLI::Range(1, 1025));
   command.add_option("--quadrature", compute.quadrature, "texel, midpoint or fejer");
   command.add_option("--layout", compute.layout, "Layout of the pictures, as for `project`");
   command.add_option("--frame", compute.frame,

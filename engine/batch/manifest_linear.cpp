@@ -45,7 +45,8 @@ bool asks_for(const Manifest& manifest, FigureTable table) {
 
 bool wants_quality(const Manifest& manifest, const EntrySettings& settings) {
   const ProjectionSettings& projection = settings.projection;
-  return projection.highest_degree() > projection.degree || asks_for(manifest, FigureTable::quality);
+  return projection.highest_degree() > projection.degree ||
+         asks_for(manifest, FigureTable::quality);
 }
 
 WindowKey window_of(const EntrySettings& settings, const Variant& variant) {

@@ -110,7 +110,8 @@ std::optional<MapRequest> read_map(const ManifestReader& reader, const YAML::Nod
   request.format = *format;
   read_size(reader, map, request);
   if (belongs(reader, map.samples, request.format == MapFileType::exr, "format: exr")) {
-    request.samples = reader.choice<MapSamples>(*map.samples, kSampleChoices).value_or(MapSamples::half);
+    request.samples =
+        reader.choice<MapSamples>(*map.samples, kSampleChoices).value_or(MapSamples::half);
   }
   if (belongs(reader, map.faces, request.layout == MapLayout::cube, "layout: cube")) {
     request.faces = reader.choice<CubeFaces>(*map.faces, kFaces).value_or(CubeFaces::strip);

@@ -132,7 +132,29 @@ Status check_linear(const EntrySettings& settings, const Variant& variant) {
   SHOAL_RETURN_IF_ERROR(combined_matrix(colour_of(settings, variant)));
   SHOAL_RETURN_IF_ERROR(turn_of(settings, variant));
   for (const AnalyticLight& light : settings.lights) SHOAL_RETURN_IF_ERROR(check_light(light));
+  const Layout layout = settings.projection.layout;
+  if (settings.projection.sun.asked() && layout != Layout::equirect &&
+      layout != Layout::automatic) {
+    return Error{
+        ErrorCode::usage,
+        fmt::format("a sun can only be found in equirect pictures, not in {}", name_of(layout)), "",
+        "leave sun out"};
+  }
   return {};
+}
+
+// A half ends at 65504, a sun shines with a million.
+void check_picture(const PanoramaEntry& entry, ManifestLog& log) {
+  const EntrySettings& settings = *entry.settings;
+  if (!settings.picture || !settings.sky || settings.sky->disk != SunDisk::shown) return;
+  const bool is_half =
+      settings.picture->format == MapFileType::exr && settings.picture->samples == MapSamples::half;
+  if (!is_half) return;
+  log.warning(entry.origin->loc,
+              fmt::format("the picture of {} loses its sun: a half ends at 65504, and the disk of "
+                          "the sun is brighter",
+                          in_quotes(entry.name)),
+              "say type: float, or disk: hidden");
 }
 
 void check_linear_keys(const Manifest& manifest, ManifestLog& log) {
@@ -141,6 +163,7 @@ void check_linear_keys(const Manifest& manifest, ManifestLog& log) {
   for (const PanoramaEntry& entry : manifest.entries) {
     if (entry.settings.get() == checked) continue;
     checked = entry.settings.get();
+    check_picture(entry, log);
     const SourceLoc& loc = entry.origin->loc;
     for (const Variant& variant : manifest.variants) {
       const Status sound = check_linear(*entry.settings, variant);

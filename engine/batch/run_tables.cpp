@@ -115,8 +115,7 @@ Result<Writers> create_tables(const Manifest& manifest) {
     writers.coefficients.push_back(std::move(writer));
   }
   if (asks_for(manifest, FigureTable::quality)) {
-    SHOAL_ASSIGN_OR_RETURN(table,
-                           QualityTable::create(table_path(manifest, FigureTable::quality)));
+    SHOAL_ASSIGN_OR_RETURN(table, QualityTable::create(table_path(manifest, FigureTable::quality)));
     writers.quality = std::move(table);
   }
   if (asks_for(manifest, FigureTable::lights)) {
@@ -134,11 +133,10 @@ Status append_quality(const Manifest& manifest, const TableContent::Row& row,
   if (!figures) return std::move(figures).error();
   for (std::size_t i = 0; i < figures->size(); ++i) {
     VariantQuality& figure = (*figures)[i];
-    SHOAL_RETURN_IF_ERROR(table.append({row.entry->name, figure.variant, std::move(figure.quality),
-                                        frame_of(*row.entry->settings, manifest.variants[i]),
-                                        projection.pixels.nonfinite_count,
-                                        projection.pixels.negative_count,
-                                        projection.pixels.clamped_count}));
+    SHOAL_RETURN_IF_ERROR(table.append(
+        {row.entry->name, figure.variant, std::move(figure.quality),
+         frame_of(*row.entry->settings, manifest.variants[i]), projection.pixels.nonfinite_count,
+         projection.pixels.negative_count, projection.pixels.clamped_count}));
   }
   return {};
 }
@@ -216,12 +214,13 @@ Result<RunTables> write_run_tables(const Manifest& manifest, Store& store) {
   SHOAL_RETURN_IF_ERROR(store.set_property(kTablesProperty, ""));
   SHOAL_RETURN_IF_ERROR(store.flush());
   SHOAL_ASSIGN_OR_RETURN(writers, create_tables(manifest));
-  SHOAL_RETURN_IF_ERROR(store.read_in_one([&]() -> Status {
+  const auto append_all = [&]() -> Status {
     for (const TableContent::Row& row : content.rows) {
       SHOAL_RETURN_IF_ERROR(append_row(manifest, row, store, writers));
     }
     return {};
-  }));
+  };
+  SHOAL_RETURN_IF_ERROR(store.read_in_one(append_all));
   SHOAL_ASSIGN_OR_RETURN(outputs, commit_tables(manifest, writers));
   SHOAL_RETURN_IF_ERROR(store.set_run_outputs(outputs));
   SHOAL_RETURN_IF_ERROR(store.set_property(kTablesProperty, content.hash));

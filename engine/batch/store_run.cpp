@@ -110,7 +110,7 @@ Status Store::set_tags(std::span<const PanoramaTags> panoramas) {
   const std::string hash = hash_of(panoramas);
   SHOAL_ASSIGN_OR_RETURN(known, property(kTagsProperty));
   if (known == hash) return {};
-  SHOAL_RETURN_IF_ERROR(impl_->write([&]() -> Status {
+  const auto replace_all = [&]() -> Status {
     SHOAL_RETURN_IF_ERROR(impl_->run("DELETE FROM tags"));
     for (const PanoramaTags& panorama : panoramas) {
       std::int64_t position = 0;
@@ -120,7 +120,8 @@ Status Store::set_tags(std::span<const PanoramaTags> panoramas) {
       }
     }
     return {};
-  }));
+  };
+  SHOAL_RETURN_IF_ERROR(impl_->write(replace_all));
   return set_property(kTagsProperty, hash);
 }
 

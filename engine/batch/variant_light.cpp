@@ -1,5 +1,7 @@
 #include "batch/variant_light.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "sphere/dominant_light.h"
@@ -16,11 +18,30 @@ Coefficients with_lights(Coefficients radiance, const EntrySettings& settings) {
   return add(std::move(radiance), project_lights(native_lights(settings), degree));
 }
 
+// A rest that is no more than the rounding of what was taken is none: figures and windows would
+// take it for light.
+Coefficients without_rounding(Coefficients rest, const Coefficients& whole) {
+  constexpr double kRounding = 1e-14;
+  for (int c = 0; c < kChannelCount; ++c) {
+    const auto size = [](const std::vector<double>& values) {
+      double largest = 0.0;
+      for (const double value : values) largest = std::max(largest, std::abs(value));
+      return largest;
+    };
+    if (size(rest.channels[c]) <= kRounding * size(whole.channels[c])) {
+      std::ranges::fill(rest.channels[c], 0.0);
+    }
+  }
+  return rest;
+}
+
 // The light is found to `degree`, so that it is the same one however finely the rest is known.
 Coefficients part_of(Coefficients light, DominantPart part, int degree) {
   if (part == DominantPart::keep) return light;
   auto found = dominant_light(light, degree);
-  if (part == DominantPart::remove) return found ? std::move(found->residual) : std::move(light);
+  if (part == DominantPart::remove) {
+    return found ? without_rounding(std::move(found->residual), light) : std::move(light);
+  }
   return found ? std::move(found->projected) : Coefficients(light.degree);
 }
 
@@ -54,7 +75,11 @@ Result<VariantLight> variant_light(const Projection& projection, const PanoramaE
   SHOAL_ASSIGN_OR_RETURN(radiance, before_window(projection.radiance, settings, variant));
   VariantLight light;
   light.radiance = std::move(radiance);
-  SHOAL_RETURN_IF_ERROR(apply_window(window_of(settings, variant), light));
+  if (Status status = apply_window(window_of(settings, variant), light); !status) {
+    Error error = std::move(status).error();
+    error.where = entry.name + (variant.name.empty() ? "" : ", variant " + variant.name);
+    return error;
+  }
   return light;
 }
 

@@ -1,8 +1,12 @@
 #include "sphere/direction_grid.h"
 
+#include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <numbers>
+#include <numeric>
 
+#include "sphere/basis.h"
 #include "sphere/conventions.h"
 #include "sphere/gauss_legendre.h"
 #include "sphere/legendre.h"
@@ -53,6 +57,39 @@ glm::dvec3 EquirectValues::direction(std::size_t index) const {
   const Angle theta = row_angle(static_cast<int>(index / columns()), rows);
   const Angle phi = column_angle(static_cast<int>(index % columns()), columns(), 1);
   return {theta.sine * phi.cosine, theta.sine * phi.sine, theta.cosine};
+}
+
+DirectedValue extremum_of(std::span<const double> coefficients, int degree,
+                          const EquirectValues& grid, Extremum which) {
+  const double sign = which == Extremum::least ? -1.0 : 1.0;
+  const Basis<double> basis(degree);
+  std::vector<double> y(coefficient_count(degree));
+  const auto height_at = [&](const glm::dvec3& direction) {
+    basis.evaluate(direction, y);
+    return sign * std::inner_product(y.begin(), y.end(), coefficients.begin(), 0.0);
+  };
+  const auto [low, high] = std::ranges::minmax_element(grid.values);
+  const auto texel = (which == Extremum::least ? low : high) - grid.values.begin();
+  glm::dvec3 direction = grid.direction(static_cast<std::size_t>(texel));
+  double height = height_at(direction);
+  constexpr double kFinest = 1e-9;
+  for (double step = std::numbers::pi / grid.rows; step > kFinest;) {
+    const glm::dvec3 off = std::abs(direction.z) < 0.7 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 u = glm::normalize(glm::cross(off, direction));
+    const glm::dvec3 v = glm::cross(direction, u);
+    bool climbed = false;
+    for (const glm::dvec3& way : {u, -u, v, -v}) {
+      const glm::dvec3 next = glm::normalize(direction + step * way);
+      const double next_height = height_at(next);
+      if (next_height <= height) continue;
+      direction = next;
+      height = next_height;
+      climbed = true;
+      break;
+    }
+    if (!climbed) step /= 2;
+  }
+  return {sign * height, direction};
 }
 
 EquirectValues equirect_values(std::span<const double> coefficients, int degree, int rows) {

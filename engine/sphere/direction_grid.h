@@ -37,4 +37,18 @@ struct EquirectValues {
 [[nodiscard]] EquirectValues equirect_values(std::span<const double> coefficients, int degree,
                                              int rows);
 
+enum class Extremum { least, greatest };
+
+struct DirectedValue {
+  double value = 0.0;
+  glm::dvec3 direction{0.0, 0.0, 1.0};  // unit, native frame
+};
+
+// The grid's least or greatest value, climbed from its texel to the extremum beside it by a compass
+// search (Hooke & Jeeves, "Direct Search Solution of Numerical and Statistical Problems", J. ACM 8,
+// 1961) to 1e-9 of arc, so to 1e-17 of the function's size times L^2. `grid`: equirect_values() of
+// the same coefficients.
+[[nodiscard]] DirectedValue extremum_of(std::span<const double> coefficients, int degree,
+                                        const EquirectValues& grid, Extremum which);
+
 }  // namespace shoal

@@ -44,12 +44,13 @@ void find_maximum(const Coefficients& difference, const Coefficients& exact,
     // E_00 / sqrt(4 pi), E_00 = pi L_00.
     const double mean = kPi * exact.channels[c][0] / std::sqrt(4.0 * kPi);
     if (!(mean > 0.0)) continue;
-    const EquirectValues grid = equirect_values(difference.channels[c], difference.degree, rows);
-    for (std::size_t i = 0; i < grid.values.size(); ++i) {
-      const double size = std::abs(grid.values[i]) / mean;
-      if (size <= error.maximum) continue;
-      error.maximum = size;
-      error.direction = grid.direction(i);
+    const auto& channel = difference.channels[c];
+    const EquirectValues grid = equirect_values(channel, difference.degree, rows);
+    for (const Extremum which : {Extremum::least, Extremum::greatest}) {
+      const DirectedValue found = extremum_of(channel, difference.degree, grid, which);
+      if (std::abs(found.value) / mean <= error.maximum) continue;
+      error.maximum = std::abs(found.value) / mean;
+      error.direction = found.direction;
     }
   }
 }

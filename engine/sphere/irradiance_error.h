@@ -27,10 +27,9 @@ struct IrradianceError {
 // against that of `exact`, the same light to a higher degree Q and without a window. Both by
 // Parseval's theorem, so free of any sampling:
 //   ||E - E_exact||^2 = sum_lm A_l^2 (L_lm - L_lm exact)^2.
-// The maximum is looked for on a grid of 4 (Q+1) rows (direction_grid.h bounds what that misses).
-// What degrees above Q hold is left out: see
-// irradiance_beyond(). Nothing where the exact irradiance is zero. Precondition: the exact degree
-// is at least the other.
+// The maximum is looked for on a grid of 4 (Q+1) rows and refined. What degrees above Q hold is
+// left out: see irradiance_beyond(). Nothing where the exact irradiance is zero. Precondition: the
+// exact degree is at least the other.
 [[nodiscard]] std::optional<IrradianceError> irradiance_error(const Coefficients& approximate,
                                                               const Coefficients& exact);
 

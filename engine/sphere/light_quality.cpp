@@ -33,7 +33,9 @@ void add_irradiance_figures(const Coefficients& windowed, LightQuality& quality)
   for (std::size_t i = 0; i < grid.values.size(); ++i) {
     if (grid.values[i] < 0.0) quality.negative_fraction += grid.shares[i / grid.columns()];
   }
-  const auto [low, high] = std::ranges::minmax(grid.values);
+  const int degree = irradiance.degree;
+  const double low = extremum_of(of_luminance, degree, grid, Extremum::least).value;
+  const double high = extremum_of(of_luminance, degree, grid, Extremum::greatest).value;
   if (low + high > 0.0) quality.contrast = (high - low) / (high + low);
 }
 

@@ -53,9 +53,10 @@ struct LightQuality {
 };
 
 // `windowed`: radiance to degree L with its window, whose gains are `gains`. `light`: the same
-// without the window, to degree L or higher; higher, it gives `error`. Irradiance is looked at in
-// max(64, 4 (L+1)) x twice as many directions, those of an equirect picture; direction_grid.h
-// bounds what is missed between them. Precondition: coefficients are finite; light's degree >= L.
+// without the window, to degree L or higher; higher, it gives `error`. The extremes of irradiance
+// are refined; its negative part is counted in max(64, 4 (L+1)) x twice as many directions, those
+// of an equirect picture, so to about 0.01 of the sphere. Precondition: coefficients are finite;
+// light's degree >= L.
 [[nodiscard]] LightQuality light_quality(const Coefficients& windowed,
                                          const std::vector<double>& gains,
                                          const Coefficients& light);

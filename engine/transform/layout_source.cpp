@@ -10,6 +10,27 @@
 namespace shoal {
 namespace {
 
+// Five faces of a cube, or three, are no five angular maps. Two files may be named left and right
+// for other reasons.
+Status check_whole(const std::filesystem::path& path) {
+  constexpr int kTellingFaces = 3;
+  const std::optional<FacePaths> faces = face_paths(path);
+  if (!faces) return {};
+  int found = 0;
+  std::string missing;
+  for (const std::filesystem::path& face : *faces) {
+    std::error_code ignored;
+    const bool exists = std::filesystem::exists(face, ignored);
+    found += exists ? 1 : 0;
+    if (!exists) missing = face.filename().string();
+  }
+  if (found < kTellingFaces || found == kFaceCount) return {};
+  return Error{ErrorCode::not_found,
+               fmt::format("{} of the six faces of a cube are here; one that is missing is {}",
+                           found, missing),
+               path.string(), "name the layout, where they are no faces"};
+}
+
 std::optional<FacePaths> faces_for(const std::filesystem::path& path, Layout asked) {
   if (asked == Layout::cube_faces) return face_paths(path);
   if (asked == Layout::automatic) return existing_face_paths(path);
@@ -80,6 +101,7 @@ Result<LaidOutPicture> open_picture(const std::filesystem::path& path, const Rea
     return picture;
   }
   if (asked == Layout::cube_faces) return no_face(path);
+  if (asked == Layout::automatic) SHOAL_RETURN_IF_ERROR(check_whole(path));
   SHOAL_ASSIGN_OR_RETURN(source, open_panorama(path, options, codecs));
   picture.source = std::move(source);
   picture.files = {path};

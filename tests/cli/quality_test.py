@@ -46,7 +46,7 @@ class Quality(ShoalTest):
         the directions, below 1 % for a picture of random pixels."""
         write_hdr(self.folder / "a.hdr", 3)
         fast, = rows_of(self.expect(0, "quality", "--error-degree", "64", "a.hdr").out)
-        slow_run = self.expect(0, "quality", "--error-degree", "64", "--brute-force", "a.hdr")
+        slow_run = self.expect(0, "quality", "--error-degree", "64", "--brute-force", "--rows", "65", "a.hdr")
         slow, = rows_of(slow_run.out)
         self.assertAlmostEqual(float(slow["rms_error"]) / float(fast["rms_error"]), 1, delta=0.01)
         self.assertEqual(slow["error_degree"], "129")
@@ -57,6 +57,8 @@ class Quality(ShoalTest):
         write_hdr(self.folder / "a.hdr", 1)
         self.assertIn("lanczos", self.expect(2, "quality", "--window", "lanczo", "a.hdr").err)
         self.expect(2, "quality", "--error-degree", "65", "a.hdr")
+        self.assertIn("--error-degree", self.expect(2, "quality", "--degree", "4", "--error-degree", "4", "a.hdr").err)
+        self.assertIn("or auto", self.expect(2, "quality", "--window", "foo", "a.hdr").err)
         self.assertIn("missing.hdr", self.expect(1, "quality", "missing.hdr", "a.hdr").err)
 
     def test_the_table_of_a_run(self):

@@ -36,6 +36,23 @@ TEST(DirectionGrid, IntegratesProductsToTheStatedDegree) {
   EXPECT_NEAR(gram[top * count + top], 0.0, 1e-13) << "it should be 1";
 }
 
+// Y_10 about an axis d is sqrt(3/(4 pi)) (d . x): greatest at d, least at -d, whatever the grid.
+TEST(DirectionGrid, ExtremaAreClimbedTo) {
+  const glm::dvec3 d(0.48, -0.6, 0.64);
+  const double size = std::sqrt(3 / (4 * std::numbers::pi));
+  // Y_1-1, Y_10, Y_11 are y, z, x times that factor.
+  const std::vector<double> coefficients = {0.0, d.y, d.z, d.x};
+  for (const int rows : {3, 8, 65}) {
+    const EquirectValues grid = equirect_values(coefficients, 1, rows);
+    const DirectedValue greatest = extremum_of(coefficients, 1, grid, Extremum::greatest);
+    const DirectedValue least = extremum_of(coefficients, 1, grid, Extremum::least);
+    EXPECT_NEAR(greatest.value, size, 1e-15);
+    EXPECT_NEAR(least.value, -size, 1e-15);
+    EXPECT_LT(glm::distance(greatest.direction, d), 1e-7);  // where doubles see no slope
+    EXPECT_LT(glm::distance(least.direction, -d), 1e-7);
+  }
+}
+
 TEST(DirectionGrid, EquirectValuesAreThoseOfTheBasis) {
   constexpr int kDegree = 9;
   const Basis<double> basis(kDegree);

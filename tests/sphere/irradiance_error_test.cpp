@@ -37,6 +37,20 @@ TEST(IrradianceError, OfALoneLightIsTheClosedForm) {
   EXPECT_NEAR(glm::dot(error->direction, kDirection), 0.0, 0.02);
 }
 
+// Turning a light turns its error with it: the largest one is the same wherever the grid's texels
+// happen to lie.
+TEST(IrradianceError, TheLargestOneDoesNotDependOnTheDirection) {
+  const auto largest = [](const glm::dvec3& direction) {
+    const std::vector<AnalyticLight> light = {DirectionalLight{direction, glm::dvec3(1.0)}};
+    return irradiance_error(project_lights(light, 2), project_lights(light, 20))->maximum;
+  };
+  const double expected = largest({0, 0, 1});
+  for (const glm::dvec3& direction :
+       {glm::dvec3(1, 0.7, 1), glm::dvec3(-1, 0, 0), glm::dvec3(0.3, -0.5, 0.8)}) {
+    EXPECT_NEAR(largest(direction), expected, 1e-12);
+  }
+}
+
 // The tables of relative RMS and largest error of sums for max(0, cos) to degree l: computed from
 // the exact rational A_l by an independent program.
 TEST(IrradianceError, BeyondADegreeIsWhatALoneLightHolds) {

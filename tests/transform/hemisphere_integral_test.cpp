@@ -187,15 +187,18 @@ TEST_F(HemisphereIntegral, MeasuresTheErrorThatParsevalTells) {
   }
 }
 
+// Nearly all light of some is their sun, whose irradiance has one sharp bend all around the sphere:
+// its quadrature takes 129 rows of directions.
 TEST_F(HemisphereIntegral, MeasuresTheErrorThatParsevalTellsOfRealPanoramas) {
-  SHOAL_REQUIRE_TEST_DATA("pmndrs_hdr");
-  for (const auto& entry : fs::directory_iterator(test::data_folder() / "pmndrs_hdr")) {
-    if (entry.path().extension() != ".hdr") continue;
-    // Nearly all light of one is its sun, whose irradiance has one sharp bend all around the
-    // sphere: the quadrature of that takes more rows.
-    const int rows = entry.path().stem() == "sky" ? 129 : 65;
-    const BothWays both = both_ways(entry.path(), 64, rows);
-    EXPECT_NEAR(both.measured.relative_rms / both.parseval.relative_rms, 1.0, 1e-4) << entry.path();
+  for (const std::string folder : {"pmndrs_hdr", "blender_exr"}) {
+    SHOAL_REQUIRE_TEST_DATA(folder);
+    for (const auto& entry : fs::directory_iterator(test::data_folder() / folder)) {
+      const auto extension = entry.path().extension();
+      if (extension != ".hdr" && extension != ".exr") continue;
+      const BothWays both = both_ways(entry.path(), 64, 129);
+      EXPECT_NEAR(both.measured.relative_rms / both.parseval.relative_rms, 1.0, 1e-4)
+          << entry.path();
+    }
   }
 }
 

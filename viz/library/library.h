@@ -30,13 +30,24 @@ struct PixelFigures {
   std::array<double, 3> mean{};
 };
 
+// How well the coefficients stand for the light, where `shoal run` was asked (`quality:`), and what
+// colours it has.
+struct StoredQuality {
+  std::optional<double> rms_error;  // of irradiance, relative; README, "The table of quality"
+  std::optional<double> max_error;
+  std::optional<double> key_temperature;  // kelvin
+  std::optional<double> fill_temperature;
+};
+
 struct Panorama {
   std::string name;
   std::string variant;         // empty: as it was projected
-  std::filesystem::path file;  // where its pixels are; empty where nobody says
+  std::filesystem::path file;  // where its pixels are, the painted ones of an entry without a file;
+                               // empty where nobody says
   Quantity quantity = Quantity::radiance;
   Coefficients coefficients;  // of `quantity`, native frame, linear Rec.709
   std::optional<PixelFigures> pixels;
+  std::optional<StoredQuality> quality;
   std::vector<std::string> tags;
   std::vector<std::string> warnings;
 };

@@ -29,8 +29,13 @@ constexpr int kBusyTimeoutMs = 30'000;  // while a run writes
 constexpr const char* kSelectItems =
     "SELECT name, status, error, input_path, format, width, height, pixel_count, nonfinite_count,"
     " negative_count, clamped_count, minimum_r, minimum_g, minimum_b, maximum_r, maximum_g,"
-    " maximum_b, mean_r, mean_g, mean_b, warnings, degree, radiance"
-    " FROM items LEFT JOIN projections ON item = id ORDER BY name";
+    " maximum_b, mean_r, mean_g, mean_b, warnings, degree, radiance,"
+    " (SELECT path FROM outputs WHERE outputs.item = id AND kind = 'picture')"
+    " FROM items LEFT JOIN projections ON projections.item = id ORDER BY name";
+
+constexpr const char* kSelectQuality =
+    "SELECT name, variant, rms_error, max_error, key_temperature, fill_temperature"
+    " FROM quality JOIN items ON items.id = item";
 
 using Database = std::unique_ptr<sqlite3, decltype(&sqlite3_close_v2)>;
 using Statement = std::unique_ptr<sqlite3_stmt, decltype(&sqlite3_finalize)>;
@@ -42,6 +47,10 @@ class Row {
 
   [[nodiscard]] std::int64_t integer(int column) const {
     return sqlite3_column_int64(statement_, column);
+  }
+  [[nodiscard]] std::optional<double> known(int column) const {
+    if (sqlite3_column_type(statement_, column) == SQLITE_NULL) return std::nullopt;
+    return sqlite3_column_double(statement_, column);
   }
   [[nodiscard]] std::array<double, 3> triple(int column) const {
     return {sqlite3_column_double(statement_, column),
@@ -146,7 +155,14 @@ PixelFigures figures_of(const Row& row) {
   return figures;
 }
 
-Status take_item(const Row& row, Library& library) {
+// The pixels of a panorama: its file, or what was painted of it, below the store's folder.
+std::filesystem::path pixels_of(const Row& row, const std::filesystem::path& folder) {
+  const std::string file = row.text(3);
+  const std::string picture = row.text(23);
+  return file.empty() && !picture.empty() ? folder / picture : std::filesystem::path(file);
+}
+
+Status take_item(const Row& row, const std::filesystem::path& folder, Library& library) {
   const std::string name = row.text(0);
   const std::string status = row.text(1);
   if (status == "failed") {
@@ -159,7 +175,7 @@ Status take_item(const Row& row, Library& library) {
   }
   Panorama panorama;
   panorama.name = name;
-  panorama.file = row.text(3);
+  panorama.file = pixels_of(row, folder);
   SHOAL_ASSIGN_OR_RETURN(radiance, radiance_from(row, name));
   panorama.coefficients = std::move(radiance);
   panorama.pixels = figures_of(row);
@@ -173,6 +189,25 @@ Status take_tag(const Row& row, Library& library) {
   const std::string name = row.text(0);
   const auto found = std::ranges::lower_bound(library.panoramas, name, {}, &Panorama::name);
   if (found != library.panoramas.end() && found->name == name) found->tags.push_back(row.text(1));
+  return {};
+}
+
+// By full name; a variant called plain is the panorama itself.
+Status take_quality(const Row& row, std::unordered_map<std::string, StoredQuality>& quality) {
+  const std::string variant = row.text(1);
+  const std::string name = variant == kPlainVariant ? row.text(0) : row.text(0) + "." + variant;
+  quality[name] = {row.known(2), row.known(3), row.known(4), row.known(5)};
+  return {};
+}
+
+Status add_quality(const std::filesystem::path& store, sqlite3* database, Library& library) {
+  std::unordered_map<std::string, StoredQuality> quality;
+  SHOAL_RETURN_IF_ERROR(query(store, database, kSelectQuality,
+                              [&](const Row& row) { return take_quality(row, quality); }));
+  for (Panorama& panorama : library.panoramas) {
+    const auto found = quality.find(full_name(panorama));
+    if (found != quality.end()) panorama.quality = found->second;
+  }
   return {};
 }
 
@@ -221,13 +256,15 @@ void add_variants(std::vector<Panorama> table, Library& library) {
 Result<Library> load_store(const std::filesystem::path& store) {
   SHOAL_ASSIGN_OR_RETURN(database, open_store(store));
   Library library;
-  SHOAL_RETURN_IF_ERROR(query(store, database.get(), kSelectItems,
-                              [&](const Row& row) { return take_item(row, library); }));
+  SHOAL_RETURN_IF_ERROR(query(store, database.get(), kSelectItems, [&](const Row& row) {
+    return take_item(row, store.parent_path(), library);
+  }));
   SHOAL_RETURN_IF_ERROR(query(store, database.get(),
                               "SELECT panorama, tag FROM tags ORDER BY panorama, position",
                               [&](const Row& row) { return take_tag(row, library); }));
   SHOAL_ASSIGN_OR_RETURN(records, table_beside(store));
   add_variants(panoramas_of(std::move(records)), library);
+  SHOAL_RETURN_IF_ERROR(add_quality(store, database.get(), library));
   return library;
 }
 

@@ -71,16 +71,25 @@ std::string pixels_data(const PixelFigures& pixels) {
       short_numbers(pixels.minimum), short_numbers(pixels.maximum), short_numbers(pixels.mean));
 }
 
+std::string quality_data(const StoredQuality& quality) {
+  return fmt::format(R"({{"rms":{},"maximum":{},"key":{},"fill":{}}})",
+                     optional_number(quality.rms_error), optional_number(quality.max_error),
+                     optional_number(quality.key_temperature),
+                     optional_number(quality.fill_temperature));
+}
+
 std::string entry_data(const IndexEntry& entry, const Frame& frame) {
   const Panorama& panorama = *entry.panorama;
   return fmt::format(
       R"({{"name":{},"variant":{},"file":{},"quantity":{},"degree":{},"tags":{},"warnings":{},)"
-      R"("thumbnail":{},"ball":{},"exposure":{},"figures":{},"pixels":{}}})",
+      R"("thumbnail":{},"ball":{},"exposure":{},"figures":{},"quality":{},"pixels":{}}})",
       script_quoted(panorama.name), script_quoted(panorama.variant),
       script_quoted(panorama.file.filename().string()), script_quoted(name_of(panorama.quantity)),
       panorama.coefficients.degree, strings(panorama.tags), strings(panorama.warnings),
       script_quoted(entry.thumbnail), entry.ball, short_number(entry.exposure),
-      figures_data(entry.figures, frame), panorama.pixels ? pixels_data(*panorama.pixels) : "null");
+      figures_data(entry.figures, frame),
+      panorama.quality ? quality_data(*panorama.quality) : "null",
+      panorama.pixels ? pixels_data(*panorama.pixels) : "null");
 }
 
 // r g b of every coefficient as little-endian doubles, whatever the machine's order is.

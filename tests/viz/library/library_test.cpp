@@ -12,6 +12,7 @@ namespace shoal::viz {
 namespace {
 
 using test::LibraryTest;
+using test::write_text;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -100,6 +101,34 @@ TEST_F(LibraryTest, HasTheManifestsTags) {
   EXPECT_THAT(library.panoramas[0].tags, ElementsAre("out", "sun"));
   EXPECT_THAT(library.panoramas[1].tags, ElementsAre("out", "sun"));
   EXPECT_TRUE(library.panoramas[2].tags.empty());
+}
+
+TEST_F(LibraryTest, HasTheQualityOfEachVariant) {
+  const auto out =
+      run_library("defaults: {quality: 8}\nvariants: {plain: {}, soft: {window: hann}}\n");
+  const Library library = loaded({out});
+  ASSERT_THAT(names_of(library), ElementsAre("c", "c.soft", "a", "a.soft", "b", "b.soft"));
+  for (std::size_t i = 0; i < 6; i += 2) {
+    ASSERT_TRUE(library.panoramas[i].quality && library.panoramas[i + 1].quality);
+    // A window takes light away that was right.
+    EXPECT_LT(*library.panoramas[i].quality->rms_error,
+              *library.panoramas[i + 1].quality->rms_error);
+  }
+  EXPECT_FALSE(loaded({out / "coefficients.csv"}).panoramas[0].quality);
+}
+
+// What was painted of an entry without a file stands for its pixels.
+TEST_F(LibraryTest, SeesThePictureOfAnEntryWithoutAFile) {
+  write_text(
+      folder / "sky.yaml",
+      "shoal: 1\noutput: skies\npanoramas: [{name: day/noon, sky: {sun: {elevation: 60}, size: "
+      "[32, 16]}, picture: {size: [32, 16]}}, {name: key, lights: [{ambient: {radiance: 1}}]}]\n");
+  const Finished finished = shoal({"run", (folder / "sky.yaml").string()});
+  ASSERT_EQ(finished.exit_status, 0) << finished.err;
+  const Library library = loaded({folder / "skies"});
+  ASSERT_THAT(names_of(library), ElementsAre("day/noon", "key"));
+  EXPECT_TRUE(std::filesystem::exists(library.panoramas[0].file)) << library.panoramas[0].file;
+  EXPECT_TRUE(library.panoramas[1].file.empty());
 }
 
 TEST_F(LibraryTest, GivesBackTheRadianceOfIrradiance) {

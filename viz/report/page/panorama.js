@@ -50,6 +50,16 @@ function chosen(group) {
   return document.querySelector(`input[name="${group}"]:checked`).value;
 }
 
+// What `shoal run` measured of the whole light, whatever degree is shown.
+function qualityRows({rms, maximum, key, fill}) {
+  const rows = [];
+  if (rms !== null) rows.push(['Irradiance error, RMS', `${figureText(100 * rms)} %`]);
+  if (maximum !== null) rows.push(['Irradiance error, largest', `${figureText(100 * maximum)} % of mean`]);
+  if (key !== null) rows.push(['Key colour', `${Math.round(key)} K`]);
+  if (fill !== null) rows.push(['Fill colour', `${Math.round(fill)} K`]);
+  return rows;
+}
+
 class PanoramaView {
   constructor(library) {
     this.library = library;
@@ -168,7 +178,7 @@ class PanoramaView {
   }
 
   showFigures() {
-    const {figures, pixels, quantity} = this.entry;
+    const {figures, quality, pixels, quantity} = this.entry;
     const at = irradianceFigures(this.native, this.degree);
     const rows = [
       ['Mean luminance', figureText(figures.mean)],
@@ -184,6 +194,7 @@ class PanoramaView {
       rows.push(['Direction (x, y, z)', figures.direction.map(figureText).join('  '), false, true]);
     }
     rows.push(['Mean colour (r, g, b)', figures.meanRgb.map(figureText).join('  '), false, true]);
+    if (quality) rows.push(...qualityRows(quality));
     if (quantity !== 'radiance') rows.push(['Table holds', quantity, false, true]);
     if (pixels) {
       rows.push(['Pixels', pixels.count.toLocaleString('en')]);
