@@ -178,7 +178,8 @@ Status take_item(const Row& row, const std::filesystem::path& folder, Library& l
   panorama.file = pixels_of(row, folder);
   SHOAL_ASSIGN_OR_RETURN(radiance, radiance_from(row, name));
   panorama.coefficients = std::move(radiance);
-  panorama.pixels = figures_of(row);
+  const bool has_pixels = row.integer(7) > 0;  // lights alone have none
+  if (has_pixels) panorama.pixels = figures_of(row);
   panorama.warnings = lines_of(row.text(20));
   library.panoramas.push_back(std::move(panorama));
   return {};

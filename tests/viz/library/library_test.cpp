@@ -128,7 +128,9 @@ TEST_F(LibraryTest, SeesThePictureOfAnEntryWithoutAFile) {
   const Library library = loaded({folder / "skies"});
   ASSERT_THAT(names_of(library), ElementsAre("day/noon", "key"));
   EXPECT_TRUE(std::filesystem::exists(library.panoramas[0].file)) << library.panoramas[0].file;
+  EXPECT_TRUE(library.panoramas[0].pixels);
   EXPECT_TRUE(library.panoramas[1].file.empty());
+  EXPECT_FALSE(library.panoramas[1].pixels);
 }
 
 TEST_F(LibraryTest, GivesBackTheRadianceOfIrradiance) {

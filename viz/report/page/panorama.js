@@ -53,8 +53,8 @@ function chosen(group) {
 // What `shoal run` measured of the whole light, whatever degree is shown.
 function qualityRows({rms, maximum, key, fill}) {
   const rows = [];
-  if (rms !== null) rows.push(['Irradiance error, RMS', `${figureText(100 * rms)} %`]);
-  if (maximum !== null) rows.push(['Irradiance error, largest', `${figureText(100 * maximum)} % of mean`]);
+  if (rms !== null) rows.push(['Irr. error, RMS', `${figureText(100 * rms)} %`]);
+  if (maximum !== null) rows.push(['Irr. error, largest', `${figureText(100 * maximum)} % of mean`]);
   if (key !== null) rows.push(['Key colour', `${Math.round(key)} K`]);
   if (fill !== null) rows.push(['Fill colour', `${Math.round(fill)} K`]);
   return rows;
