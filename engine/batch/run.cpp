@@ -317,6 +317,17 @@ std::vector<PanoramaTags> tags_of(const Manifest& manifest) {
   return tags;
 }
 
+std::vector<VariantFrame> frames_of(const Manifest& manifest) {
+  std::vector<VariantFrame> frames;
+  for (const PanoramaEntry& entry : manifest.entries) {
+    for (const Variant& variant : manifest.variants) {
+      const Frame frame = frame_of(*entry.settings, variant);
+      if (frame != Frame{}) frames.push_back({entry.name, variant.name, text_of(frame)});
+    }
+  }
+  return frames;
+}
+
 // Files that were touched, but not changed: they need not be hashed again by the next run.
 Status remember_inputs(const Plan& plan, Store& store) {
   for (const PlannedItem& item : plan.items) {
@@ -338,6 +349,7 @@ Result<RunSummary> run_marked(const Manifest& manifest, const Plan& plan, Store&
                               std::atomic<bool>& stop) {
   SHOAL_RETURN_IF_ERROR(store.set_globs(expansions_of(manifest)));
   SHOAL_RETURN_IF_ERROR(store.set_tags(tags_of(manifest)));
+  SHOAL_RETURN_IF_ERROR(store.set_frames(frames_of(manifest)));
   SHOAL_RETURN_IF_ERROR(remember_inputs(plan, store));
   RunSummary summary;
   summary.up_to_date_count = plan.count(ItemWork::none);

@@ -136,6 +136,13 @@ struct PanoramaTags {
   std::span<const std::string> tags;
 };
 
+// The frame of a panorama's rows in the tables, for those who read a table that does not say it.
+struct VariantFrame {
+  std::string_view panorama;
+  std::string_view variant;
+  std::string frame;  // text_of
+};
+
 class Store {
  public:
   enum class Access {
@@ -194,6 +201,10 @@ class Store {
   // The tags of this run's panoramas take the place of those before; the same ones cost no writing.
   Status set_tags(std::span<const PanoramaTags> panoramas);
   Result<std::vector<std::string>> tags_of(std::string_view panorama);
+
+  // Likewise for frames; those that are not named are native.
+  Status set_frames(std::span<const VariantFrame> frames);
+  Result<std::string> frame_of(std::string_view panorama, std::string_view variant);  // "" if native
 
   // Short facts, such as a hash of what the tables were made from; empty where there is none.
   Status set_property(std::string_view name, std::string_view value);

@@ -8,7 +8,8 @@
 namespace shoal {
 namespace {
 
-// The property that tells which tags stand in the store.
+// The properties that tell which tags and frames stand in the store.
+constexpr std::string_view kFramesProperty = "frames_hash";
 constexpr std::string_view kTagsProperty = "tags_hash";
 
 constexpr const char* kSelectRunOutputs =
@@ -27,6 +28,16 @@ std::string hash_of(std::span<const PanoramaTags> panoramas) {
     update(hasher, panorama.panorama);
     for (const std::string& tag : panorama.tags) update(hasher, tag);
     hasher.update("\n");
+  }
+  return hasher.digest();
+}
+
+std::string hash_of(std::span<const VariantFrame> frames) {
+  ContentHasher hasher;
+  for (const VariantFrame& frame : frames) {
+    update(hasher, frame.panorama);
+    update(hasher, frame.variant);
+    update(hasher, frame.frame);
   }
   return hasher.digest();
 }
@@ -131,6 +142,30 @@ Result<std::vector<std::string>> Store::tags_of(std::string_view panorama) {
       "SELECT tag FROM tags WHERE panorama = ? ORDER BY position",
       [&](const SqlStatement& row) { tags.push_back(row.text(0)); }, panorama));
   return tags;
+}
+
+Status Store::set_frames(std::span<const VariantFrame> frames) {
+  const std::string hash = hash_of(frames);
+  SHOAL_ASSIGN_OR_RETURN(known, property(kFramesProperty));
+  if (known == hash) return {};
+  const auto replace_all = [&]() -> Status {
+    SHOAL_RETURN_IF_ERROR(impl_->run("DELETE FROM frames"));
+    for (const VariantFrame& frame : frames) {
+      SHOAL_RETURN_IF_ERROR(impl_->run("INSERT INTO frames VALUES (?,?,?)", frame.panorama,
+                                       frame.variant, frame.frame));
+    }
+    return {};
+  };
+  SHOAL_RETURN_IF_ERROR(impl_->write(replace_all));
+  return set_property(kFramesProperty, hash);
+}
+
+Result<std::string> Store::frame_of(std::string_view panorama, std::string_view variant) {
+  std::string frame;
+  SHOAL_RETURN_IF_ERROR(impl_->query(
+      "SELECT frame FROM frames WHERE panorama = ? AND variant = ?",
+      [&](const SqlStatement& row) { frame = row.text(0); }, panorama, variant));
+  return frame;
 }
 
 Status Store::set_property(std::string_view name, std::string_view value) {

@@ -39,6 +39,14 @@ CREATE TABLE tags (
   PRIMARY KEY (panorama, position)
 ) WITHOUT ROWID;
 
+-- Frames that the tables of the last run are told in, where they are not the native one.
+CREATE TABLE frames (
+  panorama TEXT NOT NULL,
+  variant  TEXT NOT NULL,
+  frame    TEXT NOT NULL,          -- as "+z,-x,+y": centre, right, up
+  PRIMARY KEY (panorama, variant)
+) WITHOUT ROWID;
+
 -- Files read, as they were when last hashed: size and time stand for the hash while they match.
 CREATE TABLE inputs (
   path         TEXT PRIMARY KEY,

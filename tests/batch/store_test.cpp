@@ -241,5 +241,15 @@ TEST(Store, TagsAreThoseOfTheLastRun) {
   EXPECT_EQ(problems_of(folder / "s.db"), "");
 }
 
+TEST(Store, FramesAreThoseOfTheLastRun) {
+  const TemporaryFolder folder;
+  auto store = Store::open(folder / "s.db", Store::Access::write);
+  ASSERT_TRUE(store->set_frames(std::vector<VariantFrame>{{"a", "x", "+z,-x,+y"}}).ok());
+  EXPECT_EQ(*store->frame_of("a", "x"), "+z,-x,+y");
+  EXPECT_EQ(*store->frame_of("a", "y"), "");
+  ASSERT_TRUE(store->set_frames({}).ok());
+  EXPECT_EQ(*store->frame_of("a", "x"), "");
+}
+
 }  // namespace
 }  // namespace shoal

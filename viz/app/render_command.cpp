@@ -129,9 +129,9 @@ class Renderer {
     Progress progress("rendering");
     for (std::size_t i = 0; i < shots.size(); ++i) {
       progress.show(i, shots.size());
-      SHOAL_RETURN_IF_ERROR(show_scene(choice_.scene, shots[i].input, *window));
-      SHOAL_RETURN_IF_ERROR(write_png(take_picture(*window), shots[i].file));
-      written_.push_back(shots[i].file);
+      Status done = show_scene(choice_.scene, shots[i].input, *window);
+      if (done) done = write_png(take_picture(*window), shots[i].file);
+      SHOAL_RETURN_IF_ERROR(note(std::move(done), shots, i));
     }
     return {};
   }
@@ -140,9 +140,20 @@ class Renderer {
     Progress progress("writing");
     for (std::size_t i = 0; i < shots.size(); ++i) {
       progress.show(i, shots.size());
-      SHOAL_RETURN_IF_ERROR(write_lobes(shots[i].input, shots[i].file));
-      written_.push_back(shots[i].file);
+      SHOAL_RETURN_IF_ERROR(note(write_lobes(shots[i].input, shots[i].file), shots, i));
     }
+    return {};
+  }
+
+  // One of several that cannot be drawn is told, and the others are drawn.
+  Status note(Status done, const std::vector<Shot>& shots, std::size_t shot) {
+    if (done) {
+      written_.push_back(shots[shot].file);
+      return {};
+    }
+    if (shots.size() == 1) return done;
+    report_error(done.error());
+    ++failed_count_;
     return {};
   }
 
@@ -152,8 +163,10 @@ class Renderer {
   Library library_;
   PixelCache pixels_;
   std::vector<std::filesystem::path> written_;
+  int failed_count_ = 0;  // of several
 
  public:
+  [[nodiscard]] int failed_count() const { return failed_count_; }
   [[nodiscard]] const std::vector<std::filesystem::path>& written() const { return written_; }
 };
 
@@ -170,6 +183,9 @@ Result<Library> library_for(const RenderCommand& command, SceneKind scene) {
 int render(const RenderCommand& command) {
   const auto choice = understand(command.scene, command.library.degree);
   if (!choice) return report_error(choice.error());
+  if (!command.scene.with.empty() && choice->scene != SceneKind::compare) {
+    return report_error({ErrorCode::usage, "--with is for the scene compare", "", "leave it out"});
+  }
   const auto format = output_format(command.output, command.format);
   if (!format) return report_error(format.error());
   if (*format != OutputFormat::png && choice->scene != SceneKind::lobes) {
@@ -181,7 +197,8 @@ int render(const RenderCommand& command) {
   Renderer renderer(command, *choice, *format, std::move(*library));
   const Status done = renderer.run();
   for (const auto& file : renderer.written()) fmt::print("{}\n", file.string());
-  return done ? kExitOk : report_error(done.error());
+  if (!done) return report_error(done.error());
+  return renderer.failed_count() == 0 ? kExitOk : kExitFailed;
 }
 
 }  // namespace

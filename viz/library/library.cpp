@@ -160,8 +160,12 @@ Coefficients radiance_of(const Panorama& panorama) {
 }
 
 std::vector<std::size_t> find_panoramas(const Library& library, const std::string& pattern) {
-  std::vector<std::size_t> exact =
-      indices_of(library, [&](const Panorama& panorama) { return full_name(panorama) == pattern; });
+  // Tables have a name for the variant that has none here.
+  const std::string plain = "." + std::string(kPlainVariant);
+  std::vector<std::size_t> exact = indices_of(library, [&](const Panorama& panorama) {
+    return full_name(panorama) == pattern ||
+           (panorama.variant.empty() && panorama.name + plain == pattern);
+  });
   if (!exact.empty()) return exact;
   return indices_of(library, [&](const Panorama& panorama) {
     return matches(pattern, panorama.name) || matches(pattern, full_name(panorama));

@@ -48,6 +48,8 @@ struct Panorama {
   Coefficients coefficients;  // of `quantity`, native frame, linear Rec.709
   std::optional<PixelFigures> pixels;
   std::optional<StoredQuality> quality;
+  bool changed = false;  // the coefficients are not those of the pixels: a variant's, or the entry
+                         // has an exposure, a rotation, lights
   std::vector<std::string> tags;
   std::vector<std::string> warnings;
 };

@@ -19,9 +19,7 @@ glm::dvec3 mean_of(const Coefficients& coefficients) {
 
 glm::dvec3 dominant_vector(const Coefficients& radiance) {
   if (radiance.degree < 1) return glm::dvec3(0.0);
-  const auto part = [&](int m) {
-    return luminance(radiance, coefficient_index(1, m));
-  };
+  const auto part = [&](int m) { return luminance(radiance, coefficient_index(1, m)); };
   return {part(1), part(-1), part(0)};  // Y_11, Y_1-1, Y_10 are x, y, z times one factor
 }
 

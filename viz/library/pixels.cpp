@@ -113,7 +113,8 @@ void PixelCache::prepare(std::span<const std::size_t> panoramas, int width) {
       wanted[file].push_back(panorama);
       continue;
     }
-    failures_[panorama] = "nobody says where its picture is";
+    failures_[panorama] =
+        "it has no picture (skies and lights have one with picture: {} in the manifest)";
     keep(panorama, width, {});
   }
   if (wanted.empty()) return;

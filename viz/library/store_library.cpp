@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <functional>
+#include <glm/matrix.hpp>
+#include <map>
 #include <memory>
 #include <sstream>
 #include <string_view>
@@ -14,6 +17,7 @@
 #include <utility>
 
 #include "library/table_library.h"
+#include "sphere/rotation.h"
 
 namespace shoal::viz {
 namespace {
@@ -212,14 +216,60 @@ Status add_quality(const std::filesystem::path& store, sqlite3* database, Librar
   return {};
 }
 
-// JSON first: it tells the frames.
-Result<std::vector<CoefficientRecord>> table_beside(const std::filesystem::path& store) {
-  for (const char* name : {"coefficients.json", "coefficients.csv"}) {
-    const auto path = store.parent_path() / name;
-    std::error_code code;
-    if (std::filesystem::exists(path, code)) return read_table(path);
+// Of each panorama and variant whose table is not in the native frame.
+Result<std::map<std::pair<std::string, std::string>, Frame>> frames_in(
+    const std::filesystem::path& store, sqlite3* database) {
+  std::map<std::pair<std::string, std::string>, Frame> frames;
+  const auto take = [&](const Row& row) -> Status {
+    SHOAL_ASSIGN_OR_RETURN(frame, parse_frame(row.text(2)));
+    frames[{row.text(0), row.text(1)}] = frame;
+    return {};
+  };
+  SHOAL_RETURN_IF_ERROR(
+      query(store, database, "SELECT panorama, variant, frame FROM frames", take));
+  return frames;
+}
+
+// The run's table in the native frame. JSON tells its frames itself; of CSV the store does.
+Result<std::vector<CoefficientRecord>> table_beside(const std::filesystem::path& store,
+                                                    sqlite3* database) {
+  std::error_code code;
+  const auto json = store.parent_path() / "coefficients.json";
+  if (std::filesystem::exists(json, code)) return read_table(json);
+  const auto csv = store.parent_path() / "coefficients.csv";
+  if (!std::filesystem::exists(csv, code)) return std::vector<CoefficientRecord>();
+  SHOAL_ASSIGN_OR_RETURN(records, read_table(csv));
+  SHOAL_ASSIGN_OR_RETURN(frames, frames_in(store, database));
+  for (CoefficientRecord& record : records) {
+    const auto frame = frames.find({record.panorama, record.variant});
+    if (frame == frames.end()) continue;
+    const glm::dmat3 to_native = glm::transpose(native_to_frame(frame->second));
+    record.coefficients = rotate(record.coefficients, to_native);
   }
-  return std::vector<CoefficientRecord>();
+  return records;
+}
+
+// Whether the table tells another light than the one that the pixels were projected to.
+bool tells_other_light(const Panorama& told, const Panorama& projected) {
+  const Coefficients own = apply_quantity(projected.coefficients, told.quantity);
+  if (own.degree != told.coefficients.degree) return true;
+  constexpr double kRounding = 1e-12;  // of turning to a frame and back
+  for (int c = 0; c < kChannelCount; ++c) {
+    const double size = std::abs(own.channels[c][0]);
+    for (std::size_t i = 0; i < own.channels[c].size(); ++i) {
+      if (std::abs(own.channels[c][i] - told.coefficients.channels[c][i]) > kRounding * size) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+// The light that the manifest asked for, in place of the one that the pixels hold.
+void take_light(Panorama& told, Panorama& panorama) {
+  panorama.quantity = told.quantity;
+  panorama.coefficients = std::move(told.coefficients);
+  panorama.changed = true;
 }
 
 // What the store says of a panorama holds for its variants, but for the coefficients.
@@ -236,11 +286,14 @@ void add_variants(std::vector<Panorama> table, Library& library) {
     if (found == stored.end()) continue;
     std::size_t& position = positions[found->second];
     position = std::min(position, i);
-    if (table[i].variant.empty()) continue;
-    Panorama variant = library.panoramas[found->second];
+    Panorama& own = library.panoramas[found->second];
+    if (table[i].variant.empty()) {
+      if (tells_other_light(table[i], own)) take_light(table[i], own);
+      continue;
+    }
+    Panorama variant = own;
     variant.variant = table[i].variant;
-    variant.quantity = table[i].quantity;
-    variant.coefficients = std::move(table[i].coefficients);
+    take_light(table[i], variant);
     library.panoramas.push_back(std::move(variant));
     positions.push_back(i);
   }
@@ -263,7 +316,7 @@ Result<Library> load_store(const std::filesystem::path& store) {
   SHOAL_RETURN_IF_ERROR(query(store, database.get(),
                               "SELECT panorama, tag FROM tags ORDER BY panorama, position",
                               [&](const Row& row) { return take_tag(row, library); }));
-  SHOAL_ASSIGN_OR_RETURN(records, table_beside(store));
+  SHOAL_ASSIGN_OR_RETURN(records, table_beside(store, database.get()));
   add_variants(panoramas_of(std::move(records)), library);
   SHOAL_RETURN_IF_ERROR(add_quality(store, database.get(), library));
   return library;

@@ -87,7 +87,7 @@ Light light_on(const std::vector<Mesh>& meshes, const Source& source) {
 
 // A variant's pixels would be those before it changed them.
 std::string why_no_reference(const SceneInput& input, const Pixels& pixels) {
-  if (!current_panorama(input).variant.empty()) return "a variant has no pixels of its own";
+  if (current_panorama(input).changed) return "its pixels are not of this light";
   return pixels.empty() ? input.pixels->why_empty(input.current) : "";
 }
 

@@ -13,7 +13,9 @@ std::string title_of(const Panorama& panorama) {
 }
 
 std::string describe_pixels(const Panorama& panorama) {
-  return panorama.variant.empty() ? "its pixels" : "its pixels before the variant";
+  if (!panorama.changed) return "its pixels";
+  return panorama.variant.empty() ? "its pixels as they are in the file"
+                                  : "its pixels before the variant";
 }
 
 Coefficients shown_coefficients(const Panorama& panorama, const SceneSettings& settings) {

@@ -7,6 +7,8 @@
 
 #include "made_library.h"
 #include "output/coefficient_table.h"
+#include "sphere/rotation.h"
+#include "sphere/turns.h"
 
 namespace shoal::viz {
 namespace {
@@ -92,6 +94,29 @@ TEST_F(LibraryTest, HasVariantsInTheNativeFrame) {
     expect_near(library.panoramas[i + 1].coefficients, quarter, 1e-13);
     EXPECT_EQ(library.panoramas[i + 1].file, library.panoramas[i].file);
   }
+}
+
+// What an entry's own keys make of the pixels is what its scenes show, in the native frame although
+// a CSV table does not say in which one it is; one that asks for nothing has its pixels' light.
+TEST_F(LibraryTest, ShowsTheLightThatTheManifestAskedFor) {
+  make_panoramas();
+  write_text(folder / "own.yaml",
+             "shoal: 1\noutput: own\npanoramas:\n"
+             "  - {file: a.hdr, name: raw, frame: openexr}\n"
+             "  - {file: a.hdr, name: turned, frame: openexr, exposure: 1, rotate: {yaw: 90}}\n");
+  const Finished finished = shoal({"run", (folder / "own.yaml").string()});
+  ASSERT_EQ(finished.exit_status, 0) << finished.err;
+  const Library library = loaded({folder / "own"});
+  ASSERT_THAT(names_of(library), ElementsAre("raw", "turned"));
+  EXPECT_FALSE(library.panoramas[0].changed);
+  EXPECT_TRUE(library.panoramas[1].changed);
+  Coefficients twice = library.panoramas[0].coefficients;
+  for (auto& channel : twice.channels) {
+    for (double& value : channel) value *= 2.0;
+  }
+  const glm::dmat3 turn = *turn_matrix({90.0, 0.0, 0.0});
+  expect_near(library.panoramas[1].coefficients, rotate(twice, turn), 1e-13);
+  EXPECT_THAT(find_panoramas(library, "raw.plain"), ElementsAre(0));
 }
 
 TEST_F(LibraryTest, HasTheManifestsTags) {
