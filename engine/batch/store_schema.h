@@ -9,7 +9,7 @@
 namespace shoal {
 
 inline constexpr std::int64_t kStoreApplicationId = 0x73686f6c;  // "shol"
-inline constexpr std::int64_t kStoreVersion = 2;
+inline constexpr std::int64_t kStoreVersion = 3;
 
 inline constexpr const char* kStoreSchema = R"sql(
 -- Facts about the last run, by name.

@@ -26,7 +26,7 @@ static_assert(std::endian::native == std::endian::little, "the store's numbers a
 
 // engine/batch/store_schema.h says what these are, and describes all tables.
 constexpr std::int64_t kApplicationId = 0x73686f6c;
-constexpr std::int64_t kVersion = 2;
+constexpr std::int64_t kVersion = 3;
 
 constexpr int kBusyTimeoutMs = 30'000;  // while a run writes
 
