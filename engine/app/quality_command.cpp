@@ -92,10 +92,11 @@ Result<QualityRecord> figures_of(const std::string& file, const Projection& proj
   record.nonfinite_pixels = projection.pixels.nonfinite_count;
   record.negative_pixels = projection.pixels.negative_count;
   record.clamped_pixels = projection.pixels.clamped_count;
-  SHOAL_ASSIGN_OR_RETURN(quality, variant_quality(projection, entry, {}));
+  VariantLights lights(projection, entry);
+  SHOAL_ASSIGN_OR_RETURN(light, lights.in({}));
+  SHOAL_ASSIGN_OR_RETURN(quality, lights.quality({}, light));
   record.quality = std::move(quality);
   if (choice.brute_force_rows > 0) {
-    SHOAL_ASSIGN_OR_RETURN(light, variant_light(projection, entry, {}));
     SHOAL_ASSIGN_OR_RETURN(error, measured_error(file, light.radiance, choice.settings->projection,
                                                  choice.brute_force_rows, choice.compute.threads,
                                                  progress_of(file), stop));

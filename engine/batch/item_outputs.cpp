@@ -90,49 +90,62 @@ Result<OutputRecord> output_record(const Manifest& manifest, const std::string& 
                       std::filesystem::file_size(path, ignored)};
 }
 
-}  // namespace
-
-Result<std::vector<OutputRecord>> write_item_outputs(const Manifest& manifest,
-                                                     const PanoramaEntry& entry,
-                                                     const Projection& projection,
-                                                     const std::atomic<bool>& stop) {
-  std::vector<OutputRecord> records;
-  if (entry.settings->picture) {
-    SHOAL_ASSIGN_OR_RETURN(picture, write_picture_file(manifest, entry));
-    records.push_back(std::move(picture));
-  }
-  if (manifest.maps.empty() && manifest.exports.empty()) return records;
-  for (const Variant& variant : manifest.variants) {
-    SHOAL_ASSIGN_OR_RETURN(light, variant_light(projection, entry, variant));
-    const Frame frame = frame_of(*entry.settings, variant);
-    for (const MapRequest& map : manifest.maps) {
-      if (stop) return Error{ErrorCode::interrupted, "interrupted", entry.file, ""};
-      const std::vector<std::string> names = map_files(manifest, entry, variant, map);
-      SHOAL_RETURN_IF_ERROR(
-          write_map_files(manifest, map, map_file(entry, variant, map, projection, frame),
-                          apply_quantity(light.radiance, map.kind), frame, names));
-      for (const std::string& name : names) {
-        SHOAL_ASSIGN_OR_RETURN(record, output_record(manifest, name, map));
-        records.push_back(std::move(record));
-      }
-    }
-    for (const ExportRequest& request : manifest.exports) {
-      if (stop) return Error{ErrorCode::interrupted, "interrupted", entry.file, ""};
-      SHOAL_ASSIGN_OR_RETURN(record,
-                             write_export(manifest, entry, variant, request, light.radiance));
+// All maps and exports of one variant.
+Status write_variant(const Manifest& manifest, const PanoramaEntry& entry, const Variant& variant,
+                     const Coefficients& radiance, const Projection& projection,
+                     const std::atomic<bool>& stop, std::vector<OutputRecord>& records) {
+  const Frame frame = frame_of(*entry.settings, variant);
+  for (const MapRequest& map : manifest.maps) {
+    if (stop) return Error{ErrorCode::interrupted, "interrupted", entry.file, ""};
+    const std::vector<std::string> names = map_files(manifest, entry, variant, map);
+    SHOAL_RETURN_IF_ERROR(write_map_files(manifest, map,
+                                          map_file(entry, variant, map, projection, frame),
+                                          apply_quantity(radiance, map.kind), frame, names));
+    for (const std::string& name : names) {
+      SHOAL_ASSIGN_OR_RETURN(record, output_record(manifest, name, map));
       records.push_back(std::move(record));
     }
   }
-  return records;
+  for (const ExportRequest& request : manifest.exports) {
+    if (stop) return Error{ErrorCode::interrupted, "interrupted", entry.file, ""};
+    SHOAL_ASSIGN_OR_RETURN(record, write_export(manifest, entry, variant, request, radiance));
+    records.push_back(std::move(record));
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<ItemResults> make_item_results(const Manifest& manifest, const PanoramaEntry& entry,
+                                      const Projection& projection, const std::atomic<bool>& stop) {
+  ItemResults results;
+  if (entry.settings->picture) {
+    SHOAL_ASSIGN_OR_RETURN(picture, write_picture_file(manifest, entry));
+    results.outputs.push_back(std::move(picture));
+  }
+  const bool files = !manifest.maps.empty() || !manifest.exports.empty();
+  const bool figures = wants_quality(manifest, *entry.settings);
+  if (!files && !figures) return results;
+  VariantLights lights(projection, entry);
+  for (const Variant& variant : manifest.variants) {
+    SHOAL_ASSIGN_OR_RETURN(light, lights.in(variant));
+    SHOAL_RETURN_IF_ERROR(
+        write_variant(manifest, entry, variant, light.radiance, projection, stop, results.outputs));
+    if (!figures) continue;
+    SHOAL_ASSIGN_OR_RETURN(quality, lights.quality(variant, light));
+    results.quality.push_back({variant.name, std::move(quality)});
+  }
+  return results;
 }
 
 Result<std::vector<VariantQuality>> item_quality(const Manifest& manifest,
                                                  const PanoramaEntry& entry,
                                                  const Projection& projection) {
   std::vector<VariantQuality> figures;
-  if (!wants_quality(manifest, *entry.settings)) return figures;
+  VariantLights lights(projection, entry);
   for (const Variant& variant : manifest.variants) {
-    SHOAL_ASSIGN_OR_RETURN(quality, variant_quality(projection, entry, variant));
+    SHOAL_ASSIGN_OR_RETURN(light, lights.in(variant));
+    SHOAL_ASSIGN_OR_RETURN(quality, lights.quality(variant, light));
     figures.push_back({variant.name, std::move(quality)});
   }
   return figures;
@@ -141,8 +154,9 @@ Result<std::vector<VariantQuality>> item_quality(const Manifest& manifest,
 Status make_item_records(const Manifest& manifest, const PanoramaEntry& entry,
                          const Projection& projection,
                          const std::function<Status(const CoefficientRecord&)>& take) {
+  VariantLights lights(projection, entry);
   for (const Variant& variant : manifest.variants) {
-    SHOAL_ASSIGN_OR_RETURN(light, variant_light(projection, entry, variant));
+    SHOAL_ASSIGN_OR_RETURN(light, lights.in(variant));
     const Frame frame = frame_of(*entry.settings, variant);
     const Coefficients in_frame = to_frame(light.radiance, frame);
     for (const Quantity quantity : manifest.quantities) {

@@ -15,16 +15,18 @@
 
 namespace shoal {
 
-// Writes the picture, all maps and exports of a panorama. Returns what was written, in the
-// manifest's order. Errors: write_failed, usage (as variant_light), interrupted (`stop` is looked
-// at before every file).
-Result<std::vector<OutputRecord>> write_item_outputs(const Manifest& manifest,
-                                                     const PanoramaEntry& entry,
-                                                     const Projection& projection,
-                                                     const std::atomic<bool>& stop);
+struct ItemResults {
+  std::vector<OutputRecord> outputs;    // the files written, in the manifest's order
+  std::vector<VariantQuality> quality;  // of all variants, or none where figures are not wanted
+};
 
-// The figures of quality of all variants, or none where they are not wanted. Errors: as
-// variant_light.
+// Writes the picture, all maps and exports of a panorama, and finds its figures of quality.
+// Errors: write_failed, usage (as VariantLights), interrupted (`stop` is looked at before every
+// file).
+Result<ItemResults> make_item_results(const Manifest& manifest, const PanoramaEntry& entry,
+                                      const Projection& projection, const std::atomic<bool>& stop);
+
+// The figures alone.
 Result<std::vector<VariantQuality>> item_quality(const Manifest& manifest,
                                                  const PanoramaEntry& entry,
                                                  const Projection& projection);

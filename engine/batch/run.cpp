@@ -187,15 +187,13 @@ Status Run::complete(std::size_t index, PanoramaProjection* projection) {
   SHOAL_ASSIGN_OR_RETURN(result, projection_of(item, projection));
   SHOAL_ASSIGN_OR_RETURN(input, input_of(index));
   const Clock::time_point write_begin = Clock::now();
-  SHOAL_ASSIGN_OR_RETURN(outputs, write_item_outputs(manifest_, *item.entry, result, stop_));
-
-  SHOAL_ASSIGN_OR_RETURN(quality, item_quality(manifest_, *item.entry, result));
+  SHOAL_ASSIGN_OR_RETURN(results, make_item_results(manifest_, *item.entry, result, stop_));
 
   ItemRecord done = record_of(item, ItemStatus::done);
-  done.quality = std::move(quality);
+  done.quality = std::move(results.quality);
   done.state.input_hash = input.content_hash;
   if (!item.entry->file.empty()) done.input = input;
-  done.state.outputs = outputs;
+  done.state.outputs = std::move(results.outputs);
   done.projection = &result;
   done.timings.write_seconds = seconds_since(write_begin);
   if (projection != nullptr) {
@@ -217,7 +215,7 @@ Status Run::complete(std::size_t index, PanoramaProjection* projection) {
     ++done_count_;
     pixel_count_ += event.pixels;
     byte_count_ += event.bytes;
-    for (const OutputRecord& output : outputs) {
+    for (const OutputRecord& output : done.state.outputs) {
       ++(output.kind.starts_with("export:") ? export_count_ : map_count_);
     }
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "sphere/automatic_window.h"
 #include "sphere/dominant_light.h"
 #include "sphere/linear_operations.h"
 #include "sphere/rotation.h"
@@ -45,50 +46,61 @@ Coefficients part_of(Coefficients light, DominantPart part, int degree) {
   return found ? std::move(found->projected) : Coefficients(light.degree);
 }
 
-// All but the window.
-Result<Coefficients> before_window(Coefficients radiance, const EntrySettings& settings,
-                                   const Variant& variant) {
+// All but the turn and the window.
+Result<Coefficients> unturned(const Coefficients& radiance, const EntrySettings& settings,
+                              const Variant& variant) {
   SHOAL_ASSIGN_OR_RETURN(matrix, combined_matrix(colour_of(settings, variant)));
+  return apply_matrix(with_lights(radiance, settings), matrix);
+}
+
+// All but the window.
+Result<Coefficients> before_window(const Coefficients& radiance, const EntrySettings& settings,
+                                   const Variant& variant) {
   SHOAL_ASSIGN_OR_RETURN(turn, turn_of(settings, variant));
-  Coefficients light = apply_matrix(with_lights(std::move(radiance), settings), matrix);
+  SHOAL_ASSIGN_OR_RETURN(light, unturned(radiance, settings, variant));
   if (turn != glm::dmat3(1.0)) light = rotate(light, turn);
   return part_of(std::move(light), dominant_of(settings, variant), settings.projection.degree);
 }
 
-Status apply_window(const WindowKey& key, VariantLight& light) {
-  if (key.fit == WindowFit::automatic) {
-    SHOAL_ASSIGN_OR_RETURN(fitted, fit_window(light.radiance));
-    light.gains = fitted.gains;
-    light.fitted = std::move(fitted);
-  } else {
-    light.gains = window_gains(key.window, light.radiance.degree);
-  }
-  light.radiance = apply_gains(std::move(light.radiance), light.gains);
-  return {};
-}
-
 }  // namespace
 
-Result<VariantLight> variant_light(const Projection& projection, const PanoramaEntry& entry,
-                                   const Variant& variant) {
-  const EntrySettings& settings = *entry.settings;
-  SHOAL_ASSIGN_OR_RETURN(radiance, before_window(projection.radiance, settings, variant));
-  VariantLight light;
-  light.radiance = std::move(radiance);
-  if (Status status = apply_window(window_of(settings, variant), light); !status) {
-    Error error = std::move(status).error();
-    error.where = entry.name + (variant.name.empty() ? "" : ", variant " + variant.name);
+Result<std::vector<double>> VariantLights::gains_of(const Variant& variant) {
+  const EntrySettings& settings = *entry_.settings;
+  const WindowKey key = window_of(settings, variant);
+  const int degree = projection_.radiance.degree;
+  if (key.fit != WindowFit::automatic) return window_gains(key.window, degree);
+
+  SHOAL_ASSIGN_OR_RETURN(matrix, combined_matrix(colour_of(settings, variant)));
+  const DominantPart dominant = dominant_of(settings, variant);
+  for (const Fit& fit : fits_) {
+    if (fit.matrix == matrix && fit.dominant == dominant) return fit.gains;
+  }
+  SHOAL_ASSIGN_OR_RETURN(light, unturned(projection_.radiance, settings, variant));
+  auto window = fit_window(part_of(std::move(light), dominant, settings.projection.degree));
+  if (!window) {
+    Error error = std::move(window).error();
+    error.where = entry_.name + (variant.name.empty() ? "" : ", variant " + variant.name);
     return error;
   }
+  fits_.push_back({matrix, dominant, std::move(window->gains)});
+  return fits_.back().gains;
+}
+
+Result<VariantLight> VariantLights::in(const Variant& variant) {
+  SHOAL_ASSIGN_OR_RETURN(radiance, before_window(projection_.radiance, *entry_.settings, variant));
+  SHOAL_ASSIGN_OR_RETURN(gains, gains_of(variant));
+  VariantLight light;
+  light.radiance = apply_gains(std::move(radiance), gains);
+  light.gains = std::move(gains);
   return light;
 }
 
-Result<LightQuality> variant_quality(const Projection& projection, const PanoramaEntry& entry,
-                                     const Variant& variant) {
-  SHOAL_ASSIGN_OR_RETURN(windowed, variant_light(projection, entry, variant));
-  SHOAL_ASSIGN_OR_RETURN(light, before_window(projection.finer.value_or(projection.radiance),
-                                              *entry.settings, variant));
-  return light_quality(windowed.radiance, windowed.gains, light);
+Result<LightQuality> VariantLights::quality(const Variant& variant,
+                                            const VariantLight& light) const {
+  SHOAL_ASSIGN_OR_RETURN(
+      exact, before_window(projection_.finer ? *projection_.finer : projection_.radiance,
+                           *entry_.settings, variant));
+  return light_quality(light.radiance, light.gains, exact);
 }
 
 Result<LightRecord> standout_lights(const Projection& projection, const PanoramaEntry& entry) {

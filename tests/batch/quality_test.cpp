@@ -187,9 +187,11 @@ TEST_F(QualityRun, StandsInTheStoreWholly) {
     ASSERT_TRUE(projection && projection->finer);
     const std::vector<VariantQuality> found = stored(manifest, entry.name);
     ASSERT_THAT(found, SizeIs(2));
+    VariantLights lights(*projection, entry);
     for (std::size_t i = 0; i < found.size(); ++i) {
-      const auto expected = variant_quality(*projection, entry, manifest.variants[i]);
-      EXPECT_EQ(found[i].variant, manifest.variants[i].name);
+      const Variant& variant = manifest.variants[i];
+      const auto expected = lights.quality(variant, *lights.in(variant));
+      EXPECT_EQ(found[i].variant, variant.name);
       EXPECT_TRUE(found[i].quality == *expected) << "every bit of every figure";
     }
     Store store = open_store(manifest);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -10,6 +11,7 @@
 #include "output/coefficient_table.h"
 #include "sphere/basis.h"
 #include "sphere/irradiance.h"
+#include "sphere/least_irradiance.h"
 
 namespace shoal {
 namespace {
@@ -114,6 +116,33 @@ TEST_F(VariantLightTest, AutomaticWindowsLeaveNothingNegative) {
   };
   EXPECT_NEAR(at("plain"), -0.039583, 1e-6);
   EXPECT_GT(at("soft"), -1e-9);
+}
+
+// The irradiance of a turned light takes the same values, elsewhere, so all turns of one light
+// share one window, to the bit; another light has its own.
+TEST_F(VariantLightTest, TurnsShareTheirAutomaticWindow) {
+  write_panorama("lib/a.hdr", 1);
+  const Manifest manifest = manifest_of(library(
+      "defaults: {lights: [{directional: {direction: [0, 3, 4], irradiance: 9}}]}\nvariants: "
+      "{turned: {window: auto, rotate: {pitch: 30}}, plain: {window: auto}, other: "
+      "{window: auto, matrix: [[0, 1, 0], [1, 0, 0], [0.9, 0, 0.1]]}}\n"));
+  const PanoramaEntry& entry = manifest.entries.front();
+  ProjectionTables tables;
+  const auto projection = project_panorama(entry.file, {}, entry.settings->projection, tables);
+  ASSERT_TRUE(projection.ok());
+  VariantLights lights(*projection, entry);
+  const auto turned = lights.in(manifest.variants[0]);
+  const auto plain = lights.in(manifest.variants[1]);
+  const auto other = lights.in(manifest.variants[2]);
+  ASSERT_TRUE(turned && plain && other);
+  EXPECT_LT(*std::ranges::min_element(plain->gains), 1.0) << "nothing is cut";
+  EXPECT_EQ(turned->gains, plain->gains);
+  EXPECT_NE(other->gains, plain->gains);
+  EXPECT_EQ(VariantLights(*projection, entry).in(manifest.variants[0])->radiance, turned->radiance)
+      << "alone or with others";
+  for (const auto& light : {turned, plain, other}) {
+    EXPECT_GE(least_irradiance(light->radiance)->value, -1e-11);
+  }
 }
 
 // Lights alone are processed once, like files; what changes them makes them run again.
