@@ -8,10 +8,9 @@
 //             of Ramamoorthi & Hanrahan, "An Efficient Representation for Irradiance Environment
 //             Maps", SIGGRAPH 2001, eq. 3.
 // Index       i = l(l+1) + m, l = 0..L, m = -l..l.
-// Frame       native: (x, y, z) = (sin theta cos phi, sin theta sin phi, cos theta). theta grows
-// from
-//             the top row of an equirect picture, phi from its left edge to the right. So the
-//             picture's centre is -x, a quarter turn to the right of it is -y, up is +z.
+// Frame       native: (x, y, z) = (sin theta cos phi, sin theta sin phi, cos theta), where theta
+//             grows from the top row of an equirect picture, phi from its left edge to the right.
+//             So the picture's centre is -x, a quarter turn to the right of it is -y, up is +z.
 // Radiance    L_lm = integral of L(w) Y_lm(w) dw. No 1/(4 pi): a constant environment of radiance 1
 //             has L_00 = sqrt(4 pi).
 // Irradiance  E_lm = A_l L_lm, A_l of the clamped cosine: pi, 2pi/3, pi/4, 0, -pi/24, 0, pi/64 ...

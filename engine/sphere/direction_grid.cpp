@@ -7,9 +7,8 @@
 #include <numeric>
 
 #include "sphere/basis.h"
-#include "sphere/conventions.h"
+#include "sphere/equirect_evaluator.h"
 #include "sphere/gauss_legendre.h"
-#include "sphere/legendre.h"
 
 namespace shoal {
 namespace {
@@ -23,9 +22,8 @@ struct Angle {
   double sine = 0.0;
 };
 
-// 2 pi (j + 1/2) / columns times `order`, reduced in integers.
-Angle column_angle(int column, int columns, int order) {
-  const Real angle = kPi * ((2 * column + 1) * order % (2 * columns)) / columns;
+Angle column_angle(int column, int columns) {
+  const Real angle = kPi * (2 * column + 1) / columns;
   return {static_cast<double>(std::cos(angle)), static_cast<double>(std::sin(angle))};
 }
 
@@ -44,7 +42,7 @@ DirectionGrid gauss_grid(int rows) {
     const Real z = rule.nodes[i];
     const Real sine = std::sqrt((1 - z) * (1 + z));
     for (int j = 0; j < columns; ++j) {
-      const Angle phi = column_angle(j, columns, 1);
+      const Angle phi = column_angle(j, columns);
       grid.directions.emplace_back(static_cast<double>(sine * phi.cosine),
                                    static_cast<double>(sine * phi.sine), static_cast<double>(z));
       grid.weights.push_back(static_cast<double>(rule.weights[i] * 2 * kPi / columns));
@@ -55,7 +53,7 @@ DirectionGrid gauss_grid(int rows) {
 
 glm::dvec3 EquirectValues::direction(std::size_t index) const {
   const Angle theta = row_angle(static_cast<int>(index / columns()), rows);
-  const Angle phi = column_angle(static_cast<int>(index % columns()), columns(), 1);
+  const Angle phi = column_angle(static_cast<int>(index % columns()), columns());
   return {theta.sine * phi.cosine, theta.sine * phi.sine, theta.cosine};
 }
 
@@ -95,30 +93,12 @@ DirectedValue extremum_of(std::span<const double> coefficients, int degree,
 EquirectValues equirect_values(std::span<const double> coefficients, int degree, int rows) {
   EquirectValues grid;
   grid.rows = rows;
-  const int columns = grid.columns();
-  grid.values.assign(static_cast<std::size_t>(rows) * columns, 0.0);
-  std::vector<Angle> phi(static_cast<std::size_t>(degree + 1) * columns);
-  for (int m = 0; m <= degree; ++m) {
-    for (int j = 0; j < columns; ++j) phi[m * columns + j] = column_angle(j, columns, m);
-  }
-  const AssociatedLegendre<double> legendre(degree);
-  std::vector<double> pbar(legendre_count(degree));
+  const std::size_t columns = grid.columns();
+  grid.values.resize(rows * columns);
+  const EquirectEvaluator evaluator(degree, grid.columns(), rows);
   for (int i = 0; i < rows; ++i) {
-    const Angle theta = row_angle(i, rows);
-    // cos(pi i/rows) - cos(pi (i+1)/rows) = 2 sin(theta_i) sin(pi/(2 rows)), halved and divided
-    // among the columns.
-    grid.shares.push_back(static_cast<double>(theta.sine * std::sin(kPi / (2 * rows)) / columns));
-    legendre.evaluate(theta.cosine, theta.sine, pbar);
-    double* row = grid.values.data() + static_cast<std::size_t>(i) * columns;
-    for (int m = 0; m <= degree; ++m) {
-      double even = 0.0, odd = 0.0;  // the factors of cos(m phi), sin(m phi)
-      for (int l = m; l <= degree; ++l) {
-        even += coefficients[coefficient_index(l, m)] * pbar[legendre_index(l, m)];
-        if (m > 0) odd += coefficients[coefficient_index(l, -m)] * pbar[legendre_index(l, m)];
-      }
-      const Angle* angles = phi.data() + static_cast<std::size_t>(m) * columns;
-      for (int j = 0; j < columns; ++j) row[j] += even * angles[j].cosine + odd * angles[j].sine;
-    }
+    grid.shares.push_back(evaluator.share(i));
+    evaluator.evaluate(coefficients, i, std::span(grid.values).subspan(i * columns, columns));
   }
   return grid;
 }

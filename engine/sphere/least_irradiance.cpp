@@ -8,14 +8,9 @@
 #include <string>
 
 #include "sphere/irradiance.h"
-#include "sphere/legendre.h"
 
 namespace shoal {
 namespace {
-
-// long double's functions are the same on every x86-64; double's depend on whether the CPU fuses.
-using Real = long double;
-constexpr Real kPi = std::numbers::pi_v<Real>;
 
 constexpr int kRowsPerDegree = 8;
 // Candidates of a channel that are always refined.
@@ -65,27 +60,8 @@ struct IrradianceSearch::Quadratic {
 
 IrradianceSearch::IrradianceSearch(int degree)
     : degree_(degree),
-      rows_(kRowsPerDegree * (degree + 1)),
-      columns_(2 * rows_),
-      basis_(degree),
-      legendre_(static_cast<std::size_t>(rows_) * legendre_count(degree)) {
-  const AssociatedLegendre<double> legendre(degree);
-  for (int i = 0; i < rows_; ++i) {
-    const Real theta = kPi * (2 * i + 1) / (2 * rows_);
-    row_cosine_.push_back(static_cast<double>(std::cos(theta)));
-    row_sine_.push_back(static_cast<double>(std::sin(theta)));
-    const std::size_t begin = static_cast<std::size_t>(i) * legendre_count(degree);
-    legendre.evaluate(row_cosine_.back(), row_sine_.back(),
-                      std::span(legendre_).subspan(begin, legendre_count(degree)));
-  }
-  for (int m = 0; m <= degree; ++m) {
-    for (int j = 0; j < columns_; ++j) {
-      const Real angle = 2 * kPi * (m * j % columns_) / columns_;
-      cosines_.push_back(static_cast<double>(std::cos(angle)));
-      sines_.push_back(static_cast<double>(std::sin(angle)));
-    }
-  }
-}
+      grid_(degree, 2 * kRowsPerDegree * (degree + 1), kRowsPerDegree * (degree + 1)),
+      basis_(degree) {}
 
 Result<IrradianceSearch> IrradianceSearch::make(const Coefficients& radiance) {
   IrradianceSearch search(radiance.degree);
@@ -112,40 +88,25 @@ Result<IrradianceSearch> IrradianceSearch::make(const Coefficients& radiance) {
 }
 
 std::vector<double> IrradianceSearch::grid_values(const std::vector<double>& coefficients) const {
-  std::vector<double> values(static_cast<std::size_t>(rows_) * columns_, 0.0);
-  for (int i = 0; i < rows_; ++i) {
-    const double* pbar = legendre_.data() + static_cast<std::size_t>(i) * legendre_count(degree_);
-    double* row = values.data() + static_cast<std::size_t>(i) * columns_;
-    for (int m = 0; m <= degree_; ++m) {
-      double even = 0.0, odd = 0.0;  // the factors of cos(m phi), sin(m phi)
-      for (int l = m; l <= degree_; ++l) {
-        even += coefficients[coefficient_index(l, m)] * pbar[legendre_index(l, m)];
-        if (m > 0) odd += coefficients[coefficient_index(l, -m)] * pbar[legendre_index(l, m)];
-      }
-      const double* cosine = cosines_.data() + static_cast<std::size_t>(m) * columns_;
-      const double* sine = sines_.data() + static_cast<std::size_t>(m) * columns_;
-      for (int j = 0; j < columns_; ++j) row[j] += even * cosine[j] + odd * sine[j];
-    }
+  const std::size_t columns = grid_.columns();
+  std::vector<double> values(grid_.rows() * columns);
+  for (int i = 0; i < grid_.rows(); ++i) {
+    grid_.evaluate(coefficients, i, std::span(values).subspan(i * columns, columns));
   }
   return values;
 }
 
-glm::dvec3 IrradianceSearch::grid_direction(int row, int column) const {
-  const int m = std::min(1, degree_);  // at degree 0 there is no azimuth to tell
-  const std::size_t j = static_cast<std::size_t>(m) * columns_ + column;
-  return {row_sine_[row] * cosines_[j], row_sine_[row] * sines_[j], row_cosine_[row]};
-}
-
 bool IrradianceSearch::is_local_minimum(const std::vector<double>& values, int row,
                                         int column) const {
-  const double own = values[static_cast<std::size_t>(row) * columns_ + column];
+  const int rows = grid_.rows(), columns = grid_.columns();
+  const double own = values[static_cast<std::size_t>(row) * columns + column];
   for (int i = row - 1; i <= row + 1; ++i) {
     for (int j = column - 1; j <= column + 1; ++j) {
       // Beyond a pole lies the same row, half a turn on.
-      const bool beyond = i < 0 || i >= rows_;
-      const int neighbour_row = std::clamp(i, 0, rows_ - 1);
-      const int neighbour = (j + columns_ + (beyond ? rows_ : 0)) % columns_;
-      if (values[static_cast<std::size_t>(neighbour_row) * columns_ + neighbour] < own) {
+      const bool beyond = i < 0 || i >= rows;
+      const int neighbour_row = std::clamp(i, 0, rows - 1);
+      const int neighbour = (j + columns + (beyond ? rows : 0)) % columns;
+      if (values[static_cast<std::size_t>(neighbour_row) * columns + neighbour] < own) {
         return false;
       }
     }
@@ -157,9 +118,9 @@ std::vector<IrradianceSearch::Candidate> IrradianceSearch::candidates(
     const std::vector<double>& values, double rise) const {
   const double threshold = std::max(*std::min_element(values.begin(), values.end()), 0.0) + rise;
   std::vector<std::pair<double, int>> found;
-  for (int i = 0; i < rows_; ++i) {
-    for (int j = 0; j < columns_; ++j) {
-      const int at = i * columns_ + j;
+  for (int i = 0; i < grid_.rows(); ++i) {
+    for (int j = 0; j < grid_.columns(); ++j) {
+      const int at = i * grid_.columns() + j;
       if (values[at] <= threshold && is_local_minimum(values, i, j)) {
         found.emplace_back(values[at], at);
       }
@@ -172,7 +133,7 @@ std::vector<IrradianceSearch::Candidate> IrradianceSearch::candidates(
   const double near = std::cos(std::numbers::pi / (2 * (degree_ + 1)));
   std::vector<Candidate> kept;
   for (const auto& [value, at] : found) {
-    const glm::dvec3 direction = grid_direction(at / columns_, at % columns_);
+    const glm::dvec3 direction = grid_.direction(at / grid_.columns(), at % grid_.columns());
     const bool taken = std::any_of(kept.begin(), kept.end(), [&](const Candidate& other) {
       return glm::dot(other.direction, direction) > near;
     });
@@ -255,7 +216,7 @@ std::vector<LeastIrradiance> IrradianceSearch::minima(std::span<const double> ga
     for (int l = 0; l <= degree_; ++l) {
       for (int i = l * l; i < (l + 1) * (l + 1); ++i) coefficients[i] *= gains[l];
     }
-    const double rise = grid_rise(coefficients, degree_, rows_);
+    const double rise = grid_rise(coefficients, degree_, grid_.rows());
     double least = std::numeric_limits<double>::infinity();
     int refined = 0;
     for (const Candidate& candidate : candidates(grid_values(coefficients), rise)) {

@@ -10,6 +10,7 @@
 #include "core/result.h"
 #include "sphere/basis.h"
 #include "sphere/coefficients.h"
+#include "sphere/equirect_evaluator.h"
 
 namespace shoal {
 
@@ -60,7 +61,6 @@ class IrradianceSearch {
   using Channels = std::array<std::vector<double>, kChannelCount>;
 
   [[nodiscard]] std::vector<double> grid_values(const std::vector<double>& coefficients) const;
-  [[nodiscard]] glm::dvec3 grid_direction(int row, int column) const;
   [[nodiscard]] std::vector<Candidate> candidates(const std::vector<double>& values,
                                                   double rise) const;
   [[nodiscard]] bool is_local_minimum(const std::vector<double>& values, int row, int column) const;
@@ -73,14 +73,9 @@ class IrradianceSearch {
                                        glm::dvec3 direction) const;
 
   int degree_ = 0;
-  int rows_ = 0;     // theta_i = pi (i+1/2)/rows
-  int columns_ = 0;  // phi_j = 2 pi j/columns, columns = 2 rows
+  EquirectEvaluator grid_;  // 8(L+1) rows, twice as many columns
   Basis<double> basis_;
-  Channels irradiance_;           // index order, by the channel's mean; empty for a dark channel
-  std::vector<double> legendre_;  // (rows, (degree+1)(degree+2)/2)
-  std::vector<double> cosines_;   // (degree+1, columns): cos(m phi_j)
-  std::vector<double> sines_;     // (degree+1, columns)
-  std::vector<double> row_cosine_, row_sine_;  // (rows) of theta_i
+  Channels irradiance_;  // index order, by the channel's mean; empty for a dark channel
 };
 
 // The least one without gains; value 0 where no channel has light. Error: as IrradianceSearch.

@@ -8,7 +8,6 @@
 #include <numbers>
 #include <random>
 
-#include "oracle_panoramas.h"
 #include "sphere/analytic_lights.h"
 #include "sphere/basis.h"
 #include "sphere/degree_window.h"
@@ -275,30 +274,6 @@ TEST(AutomaticWindow, WorksToTheLargestDegree) {
   EXPECT_GE(window->after.value, -1e-12);
   const int l = window->strongest_cut();
   EXPECT_LT(least_with(panorama, raised(window->gains, l)), -2e-9);
-}
-
-TEST(AutomaticWindow, IsTightOnRealPanoramas) {
-  SHOAL_REQUIRE_TEST_DATA(test::kOracleTable);
-  std::vector<Coefficients> windowed;
-  int cut = 0;
-  for (const auto& [name, panorama] : test::oracle_panoramas()) {
-    // Degrees 5 and 7 have the irradiance of 4 and 6.
-    for (int degree : {2, 3, 4, 6, 8}) {
-      const Coefficients light = truncate(panorama, degree);
-      const auto window = fit_window(light);
-      ASSERT_TRUE(window.ok()) << name << ' ' << degree;
-      windowed.push_back(apply_gains(light, window->gains));
-      const int l = window->strongest_cut();
-      if (l == 0) continue;
-      ++cut;
-      EXPECT_LT(least_with(light, raised(window->gains, l)), -2e-9) << name << ' ' << degree;
-    }
-  }
-  ASSERT_GT(windowed.size(), 70u);
-  EXPECT_GT(cut, 0);
-  const auto least = least_on_lattice(windowed, 100000);
-  EXPECT_GE(*std::min_element(least.begin(), least.end()), -1e-6);
-  RecordProperty("cut", cut);
 }
 
 }  // namespace

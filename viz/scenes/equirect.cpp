@@ -4,50 +4,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "sphere/legendre.h"
+#include "sphere/equirect_evaluator.h"
 
 namespace shoal::viz {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-// cos(m phi_j) and sin(m phi_j) of all columns, (degree+1, width) each.
-struct ColumnTables {
-  std::vector<double> cosines;
-  std::vector<double> sines;
-
-  ColumnTables(int degree, int width) {
-    cosines.reserve(static_cast<std::size_t>(degree + 1) * width);
-    sines.reserve(cosines.capacity());
-    for (int m = 0; m <= degree; ++m) {
-      for (int j = 0; j < width; ++j) {
-        const double angle = 2.0 * kPi * m * (j + 0.5) / width;
-        cosines.push_back(std::cos(angle));
-        sines.push_back(std::sin(angle));
-      }
-    }
-  }
-};
-
-// One row of one channel, (width) values at a stride of three floats.
-void synthesise_row(const std::vector<double>& coefficients, int degree,
-                    const std::vector<double>& legendre, const ColumnTables& columns, int width,
-                    std::vector<double>& row, float* out) {
-  row.assign(width, 0.0);
-  for (int m = 0; m <= degree; ++m) {
-    double cosine_part = 0.0;
-    double sine_part = 0.0;
-    for (int l = m; l <= degree; ++l) {
-      const double value = legendre[legendre_index(l, m)];
-      cosine_part += value * coefficients[coefficient_index(l, m)];
-      if (m > 0) sine_part += value * coefficients[coefficient_index(l, -m)];
-    }
-    const double* cosines = columns.cosines.data() + static_cast<std::ptrdiff_t>(m) * width;
-    const double* sines = columns.sines.data() + static_cast<std::ptrdiff_t>(m) * width;
-    for (int j = 0; j < width; ++j) row[j] += cosine_part * cosines[j] + sine_part * sines[j];
-  }
-  for (int j = 0; j < width; ++j) out[3 * j] = static_cast<float>(row[j]);
-}
 
 }  // namespace
 
@@ -55,17 +17,14 @@ Pixels synthesise(const Coefficients& native, int width, int height) {
   Pixels pixels;
   pixels.width = width;
   pixels.height = height;
-  pixels.rgb.resize(std::size_t{3} * pixels.width * pixels.height);
-  const AssociatedLegendre<double> legendre(native.degree);
-  const ColumnTables columns(native.degree, width);
-  std::vector<double> values(legendre_count(native.degree));
-  std::vector<double> row;
-  for (int i = 0; i < pixels.height; ++i) {
-    const double theta = kPi * (i + 0.5) / pixels.height;
-    legendre.evaluate(std::cos(theta), std::sin(theta), values);
+  pixels.rgb.resize(std::size_t{3} * width * height);
+  const EquirectEvaluator evaluator(native.degree, width, height);
+  std::vector<double> row(width);
+  for (int i = 0; i < height; ++i) {
     float* first = pixels.rgb.data() + std::size_t{3} * i * width;
     for (int c = 0; c < kChannelCount; ++c) {
-      synthesise_row(native.channels[c], native.degree, values, columns, width, row, first + c);
+      evaluator.evaluate(native.channels[c], i, row);
+      for (int j = 0; j < width; ++j) first[3 * j + c] = static_cast<float>(row[j]);
     }
   }
   return pixels;
