@@ -10,6 +10,7 @@
 #include "batch/variant_light.h"
 #include "core/content_hash.h"
 #include "output/coefficient_table.h"
+#include "output/hashed_file.h"
 #include "output/light_table.h"
 #include "output/quality_table.h"
 
@@ -103,8 +104,8 @@ Result<TableContent> table_content(const Manifest& manifest, Store& store) {
 // The tables on their way.
 struct Writers {
   std::vector<std::unique_ptr<TableWriter>> coefficients;  // by the manifest's tables
-  std::optional<QualityTable> quality;
-  std::optional<LightTable> lights;
+  std::optional<HashedFile> quality;
+  std::optional<HashedFile> lights;
 };
 
 Result<Writers> create_tables(const Manifest& manifest) {
@@ -115,11 +116,13 @@ Result<Writers> create_tables(const Manifest& manifest) {
     writers.coefficients.push_back(std::move(writer));
   }
   if (asks_for(manifest, FigureTable::quality)) {
-    SHOAL_ASSIGN_OR_RETURN(table, QualityTable::create(table_path(manifest, FigureTable::quality)));
+    SHOAL_ASSIGN_OR_RETURN(table, HashedFile::create(table_path(manifest, FigureTable::quality)));
+    SHOAL_RETURN_IF_ERROR(table.write(quality_csv_header(VariantColumn::present)));
     writers.quality = std::move(table);
   }
   if (asks_for(manifest, FigureTable::lights)) {
-    SHOAL_ASSIGN_OR_RETURN(table, LightTable::create(table_path(manifest, FigureTable::lights)));
+    SHOAL_ASSIGN_OR_RETURN(table, HashedFile::create(table_path(manifest, FigureTable::lights)));
+    SHOAL_RETURN_IF_ERROR(table.write(light_csv_header()));
     writers.lights = std::move(table);
   }
   return writers;
@@ -127,16 +130,20 @@ Result<Writers> create_tables(const Manifest& manifest) {
 
 // The figures of an entry that this run left alone may be of other variants than the manifest's.
 Status append_quality(const Manifest& manifest, const TableContent::Row& row,
-                      const Projection& projection, Store& store, QualityTable& table) {
+                      const Projection& projection, Store& store, HashedFile& table) {
   auto figures = row.quality_stands ? store.find_quality(row.item)
                                     : item_quality(manifest, *row.entry, projection);
   if (!figures) return std::move(figures).error();
   for (std::size_t i = 0; i < figures->size(); ++i) {
     VariantQuality& figure = (*figures)[i];
-    SHOAL_RETURN_IF_ERROR(table.append(
-        {row.entry->name, figure.variant, std::move(figure.quality),
-         frame_of(*row.entry->settings, manifest.variants[i]), projection.pixels.nonfinite_count,
-         projection.pixels.negative_count, projection.pixels.clamped_count}));
+    const QualityRecord record = {row.entry->name,
+                                  figure.variant,
+                                  std::move(figure.quality),
+                                  frame_of(*row.entry->settings, manifest.variants[i]),
+                                  projection.pixels.nonfinite_count,
+                                  projection.pixels.negative_count,
+                                  projection.pixels.clamped_count};
+    SHOAL_RETURN_IF_ERROR(table.write(quality_csv_row(record, VariantColumn::present)));
   }
   return {};
 }
@@ -154,7 +161,7 @@ Status append_row(const Manifest& manifest, const TableContent::Row& row, Store&
   }
   if (writers.lights) {
     SHOAL_ASSIGN_OR_RETURN(lights, standout_lights(*projection, entry));
-    SHOAL_RETURN_IF_ERROR(writers.lights->append(lights));
+    SHOAL_RETURN_IF_ERROR(writers.lights->write(light_csv_row(lights)));
   }
   if (writers.coefficients.empty()) return {};
   return make_item_records(manifest, entry, *projection,

@@ -204,7 +204,8 @@ class Store {
 
   // Likewise for frames; those that are not named are native.
   Status set_frames(std::span<const VariantFrame> frames);
-  Result<std::string> frame_of(std::string_view panorama, std::string_view variant);  // "" if native
+  Result<std::string> frame_of(std::string_view panorama,
+                               std::string_view variant);  // "" if native
 
   // Short facts, such as a hash of what the tables were made from; empty where there is none.
   Status set_property(std::string_view name, std::string_view value);
@@ -216,6 +217,9 @@ class Store {
  private:
   struct Impl;
   explicit Store(std::unique_ptr<Impl> impl);
+  // Calls `replace` where what it writes has another hash than what stands.
+  Status replace_facts(std::string_view hash_property, const std::string& hash,
+                       const std::function<Status()>& replace);
   std::unique_ptr<Impl> impl_;
 };
 

@@ -117,11 +117,16 @@ Result<std::vector<GlobExpansion>> Store::globs() {
   return globs;
 }
 
-Status Store::set_tags(std::span<const PanoramaTags> panoramas) {
-  const std::string hash = hash_of(panoramas);
-  SHOAL_ASSIGN_OR_RETURN(known, property(kTagsProperty));
+Status Store::replace_facts(std::string_view hash_property, const std::string& hash,
+                            const std::function<Status()>& replace) {
+  SHOAL_ASSIGN_OR_RETURN(known, property(hash_property));
   if (known == hash) return {};
-  const auto replace_all = [&]() -> Status {
+  SHOAL_RETURN_IF_ERROR(impl_->write(replace));
+  return set_property(hash_property, hash);
+}
+
+Status Store::set_tags(std::span<const PanoramaTags> panoramas) {
+  return replace_facts(kTagsProperty, hash_of(panoramas), [&]() -> Status {
     SHOAL_RETURN_IF_ERROR(impl_->run("DELETE FROM tags"));
     for (const PanoramaTags& panorama : panoramas) {
       std::int64_t position = 0;
@@ -131,9 +136,7 @@ Status Store::set_tags(std::span<const PanoramaTags> panoramas) {
       }
     }
     return {};
-  };
-  SHOAL_RETURN_IF_ERROR(impl_->write(replace_all));
-  return set_property(kTagsProperty, hash);
+  });
 }
 
 Result<std::vector<std::string>> Store::tags_of(std::string_view panorama) {
@@ -145,19 +148,14 @@ Result<std::vector<std::string>> Store::tags_of(std::string_view panorama) {
 }
 
 Status Store::set_frames(std::span<const VariantFrame> frames) {
-  const std::string hash = hash_of(frames);
-  SHOAL_ASSIGN_OR_RETURN(known, property(kFramesProperty));
-  if (known == hash) return {};
-  const auto replace_all = [&]() -> Status {
+  return replace_facts(kFramesProperty, hash_of(frames), [&]() -> Status {
     SHOAL_RETURN_IF_ERROR(impl_->run("DELETE FROM frames"));
     for (const VariantFrame& frame : frames) {
       SHOAL_RETURN_IF_ERROR(impl_->run("INSERT INTO frames VALUES (?,?,?)", frame.panorama,
                                        frame.variant, frame.frame));
     }
     return {};
-  };
-  SHOAL_RETURN_IF_ERROR(impl_->write(replace_all));
-  return set_property(kFramesProperty, hash);
+  });
 }
 
 Result<std::string> Store::frame_of(std::string_view panorama, std::string_view variant) {

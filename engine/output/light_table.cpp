@@ -6,7 +6,6 @@
 #include <glm/mat3x3.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "output/table_formats.h"
 #include "output/text_quoting.h"
 
 namespace shoal {
@@ -61,27 +60,6 @@ std::string light_csv_row(const LightRecord& record) {
     line.append(kDominantColumns, ',');
   }
   return line + "\n";
-}
-
-Result<LightTable> LightTable::create(const std::filesystem::path& path) {
-  SHOAL_ASSIGN_OR_RETURN(file, HashedFile::create(path));
-  return LightTable(std::move(file));
-}
-
-Status LightTable::append(const LightRecord& record) {
-  buffer_ += light_csv_row(record);
-  return buffer_.size() < kTableBufferSize ? Status() : drain();
-}
-
-Result<WrittenFile> LightTable::commit() {
-  SHOAL_RETURN_IF_ERROR(drain());
-  return file_.commit();
-}
-
-Status LightTable::drain() {
-  Status status = file_.write(buffer_);
-  buffer_.clear();
-  return status;
 }
 
 }  // namespace shoal

@@ -9,18 +9,14 @@
 //   sun_r sun_g sun_b         irradiance of a surface that faces it
 //   sun_radiance_r .. _b      mean radiance
 //   sun_solid_angle sun_share sun_texels sun_level
-//   dominant_x .. _z          the directional light of sphere/dominant_light.h, fitted to all
-//   degrees dominant_r .. _b          irradiance of a surface that faces it directionality
-//   dominant_energy
+//   dominant_x .. _z          the directional light of sphere/dominant_light.h, of all degrees
+//   dominant_r .. _b          irradiance of a surface that faces it
+//   directionality dominant_energy
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
-#include <utility>
 
-#include "output/coefficient_table.h"
-#include "output/hashed_file.h"
 #include "sphere/analytic_lights.h"
 #include "sphere/frame.h"
 #include "sphere/sun.h"
@@ -41,21 +37,5 @@ struct LightRecord {
 
 [[nodiscard]] std::string light_csv_header();
 [[nodiscard]] std::string light_csv_row(const LightRecord& record);
-
-// The CSV of a run, in a file that appears whole or not at all.
-class LightTable {
- public:
-  static Result<LightTable> create(const std::filesystem::path& path);
-
-  Status append(const LightRecord& record);
-  Result<WrittenFile> commit();
-
- private:
-  explicit LightTable(HashedFile file) : file_(std::move(file)) {}
-  Status drain();
-
-  HashedFile file_;
-  std::string buffer_ = light_csv_header();
-};
 
 }  // namespace shoal

@@ -27,7 +27,6 @@ class NpyTable : public TableWriter {
   NpyTable(std::filesystem::path path, AtomicFile array, HashedFile names)
       : path_(std::move(path)), array_(std::move(array)), names_(std::move(names)) {
     numbers_text_ = table_header(0, 0);
-    names_text_ = "index,panorama,variant,quantity\n";
   }
 
   Status append(const CoefficientRecord& record) override {
@@ -41,9 +40,10 @@ class NpyTable : public TableWriter {
                    record.panorama, "give all panoramas the same degree, or write csv or json"};
     }
     append_numbers(record.coefficients);
-    names_text_ += fmt::format("{},{},{},{}\n", count_++, csv_quoted(record.panorama),
-                               csv_quoted(record.variant), name_of(record.quantity));
-    return numbers_text_.size() + names_text_.size() < kTableBufferSize ? Status() : drain();
+    SHOAL_RETURN_IF_ERROR(
+        names_.write(fmt::format("{},{},{},{}\n", count_++, csv_quoted(record.panorama),
+                                 csv_quoted(record.variant), name_of(record.quantity))));
+    return numbers_text_.size() < kTableBufferSize ? Status() : drain();
   }
 
   Result<std::vector<WrittenFile>> commit() override {
@@ -70,8 +70,6 @@ class NpyTable : public TableWriter {
     size_ += numbers_text_.size();
     SHOAL_RETURN_IF_ERROR(array_.write(numbers_text_));
     numbers_text_.clear();
-    SHOAL_RETURN_IF_ERROR(names_.write(names_text_));
-    names_text_.clear();
     return {};
   }
 
@@ -79,7 +77,6 @@ class NpyTable : public TableWriter {
   AtomicFile array_;
   HashedFile names_;
   std::string numbers_text_;
-  std::string names_text_;
   std::uint64_t count_ = 0;
   std::uint64_t size_ = 0;
   int degree_ = 0;
@@ -92,6 +89,7 @@ Result<std::unique_ptr<TableWriter>> create_npy_table(const std::filesystem::pat
   names_path.replace_extension(".names.csv");
   SHOAL_ASSIGN_OR_RETURN(array, AtomicFile::create(path));
   SHOAL_ASSIGN_OR_RETURN(names, HashedFile::create(names_path));
+  SHOAL_RETURN_IF_ERROR(names.write("index,panorama,variant,quantity\n"));
   return std::unique_ptr<TableWriter>(
       std::make_unique<NpyTable>(path, std::move(array), std::move(names)));
 }

@@ -10,7 +10,6 @@
 #include <variant>
 #include <vector>
 
-#include "output/table_formats.h"
 #include "output/text_quoting.h"
 
 namespace shoal {
@@ -120,27 +119,6 @@ std::string quality_json(const QualityRecord& record, VariantColumn variant) {
                         std::visit(JsonText{}, field.value));
   }
   return "{" + text + "}";
-}
-
-Result<QualityTable> QualityTable::create(const std::filesystem::path& path) {
-  SHOAL_ASSIGN_OR_RETURN(file, HashedFile::create(path));
-  return QualityTable(std::move(file));
-}
-
-Status QualityTable::append(const QualityRecord& record) {
-  buffer_ += quality_csv_row(record, VariantColumn::present);
-  return buffer_.size() < kTableBufferSize ? Status() : drain();
-}
-
-Result<WrittenFile> QualityTable::commit() {
-  SHOAL_RETURN_IF_ERROR(drain());
-  return file_.commit();
-}
-
-Status QualityTable::drain() {
-  Status status = file_.write(buffer_);
-  buffer_.clear();
-  return status;
 }
 
 }  // namespace shoal

@@ -8,19 +8,15 @@
 //       quoting, "\n" line ends; a figure that the light does not have is empty; several numbers in
 //       a column (a degree each) are separated by blanks. What `shoal quality` prints has no
 //       variant.
-// JSON  {"schema": "shoal/quality", "version": 1, "records": [{...}, ...]} with the same names,
-// null
-//       for what is empty, lists for several numbers.
+// JSON  {"schema": "shoal/quality", "version": 1, "records": [{...}, ...]} with the same names;
+//       null for what is empty, lists for several numbers.
 // Numbers are written like C's "%.17g", so they read back as the same double.
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
-#include <utility>
 
 #include "output/coefficient_table.h"
-#include "output/hashed_file.h"
 #include "sphere/frame.h"
 #include "sphere/light_quality.h"
 
@@ -42,21 +38,5 @@ struct QualityRecord {
 // A line of CSV, or an object of JSON without a line end.
 [[nodiscard]] std::string quality_csv_row(const QualityRecord& record, VariantColumn variant);
 [[nodiscard]] std::string quality_json(const QualityRecord& record, VariantColumn variant);
-
-// The CSV of a run, in a file that appears whole or not at all.
-class QualityTable {
- public:
-  static Result<QualityTable> create(const std::filesystem::path& path);
-
-  Status append(const QualityRecord& record);
-  Result<WrittenFile> commit();
-
- private:
-  explicit QualityTable(HashedFile file) : file_(std::move(file)) {}
-  Status drain();
-
-  HashedFile file_;
-  std::string buffer_ = quality_csv_header(VariantColumn::present);
-};
 
 }  // namespace shoal
