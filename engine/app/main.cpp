@@ -20,12 +20,17 @@
 namespace {
 
 constexpr const char* kFooter =
-    "What a manifest can ask for, beside files: layout (cube maps, crosses, strips, angular map,\n"
-    "mirror ball, octahedral), lights and sky, rotate and views, window (auto: nothing negative),\n"
-    "frame, exposure and colour, clamp by value or percentile, sun, dominant, quality; maps in "
-    "every\n"
-    "layout, exports by engine profiles, tables csv, json, npy, quality, lights.\n"
-    "manifests/README.md tells every key; `shoal profiles` lists the engines.\n\n"
+    "A manifest (shoal: 1) can ask for, as manifests/README.md tells in full:\n"
+    "  panoramas  file, files, exclude, name, tags; or light without a file: sky, lights\n"
+    "             (ambient, directional, disk, cap, cosine), with a picture of it\n"
+    "  pixels     degree, quadrature, layout (equirect, cube maps, angular map, mirror ball,\n"
+    "             octahedral), layer, part, encoding, rgbe_decode, nonfinite, negative,\n"
+    "             clamp (by value or percentile), sun\n"
+    "  light      exposure, scale, matrix, white, rotate, dominant, window (hann, lanczos, gauss,\n"
+    "             laplacian, auto: nothing negative), frame, quality\n"
+    "  the whole  vars, include, output, defaults, variants (views: many turns), quantities,\n"
+    "             tables (csv, json, npy, quality, lights), maps in every layout,\n"
+    "             exports for engines (`shoal profiles` lists them)\n\n"
     "Exit status: 0 all well; 1 a panorama failed or a check found something; 2 usage or manifest\n"
     "error, nothing run; 130 interrupted, finished work kept.\n";
 
