@@ -30,11 +30,15 @@ struct PixelFigures {
   std::array<double, 3> mean{};
 };
 
-// How well the coefficients stand for the light, where `shoal run` was asked (`quality:`), and what
-// colours it has.
-struct StoredQuality {
-  std::optional<double> rms_error;  // of irradiance, relative; README, "The table of quality"
+// Figures of README, "The table of quality". One that the light does not have is empty, and so are
+// the errors where `shoal run` was not asked for them (`quality:`).
+struct QualityFigures {
+  std::optional<double> rms_error;  // of irradiance, relative
   std::optional<double> max_error;
+  std::optional<double> minimum_irradiance;
+  double negative_fraction = 0.0;
+  std::optional<double> contrast;
+  std::optional<double> directionality;
   std::optional<double> key_temperature;  // kelvin
   std::optional<double> fill_temperature;
 };
@@ -47,7 +51,7 @@ struct Panorama {
   Quantity quantity = Quantity::radiance;
   Coefficients coefficients;  // of `quantity`, native frame, linear Rec.709
   std::optional<PixelFigures> pixels;
-  std::optional<StoredQuality> quality;
+  std::optional<QualityFigures> quality;  // what the store has
   bool changed = false;  // the coefficients are not those of the pixels: a variant's, or the entry
                          // has an exposure, a rotation, lights
   std::vector<std::string> tags;
@@ -58,6 +62,7 @@ struct Panorama {
 struct FailedPanorama {
   std::string name;
   std::string error;
+  std::filesystem::path file = {};  // where its pixels are
 };
 
 struct Library {

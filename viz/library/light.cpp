@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <numbers>
 
+#include "sphere/dominant_light.h"
 #include "sphere/linear_operations.h"
 
 namespace shoal::viz {
@@ -17,16 +17,10 @@ glm::dvec3 mean_of(const Coefficients& coefficients) {
   return colour_at(coefficients, 0) / std::sqrt(4.0 * std::numbers::pi);
 }
 
-glm::dvec3 dominant_vector(const Coefficients& radiance) {
-  if (radiance.degree < 1) return glm::dvec3(0.0);
-  const auto part = [&](int m) { return luminance(radiance, coefficient_index(1, m)); };
-  return {part(1), part(-1), part(0)};  // Y_11, Y_1-1, Y_10 are x, y, z times one factor
-}
-
 std::optional<double> dominance_of(const Coefficients& radiance) {
-  const double whole = luminance(radiance, 0);
-  if (radiance.degree < 1 || whole <= 0.0) return std::nullopt;
-  return glm::length(dominant_vector(radiance)) / (std::numbers::sqrt3 * whole);
+  if (radiance.degree < 1 || luminance(radiance, 0) <= 0.0) return std::nullopt;
+  const auto found = dominant_light(radiance, 1);
+  return found ? found->directionality : 0.0;
 }
 
 double automatic_exposure(const Coefficients& radiance, double stops) {

@@ -14,12 +14,8 @@ namespace shoal::viz {
 // The mean over the sphere, RGB: L_00 / sqrt(4 pi).
 [[nodiscard]] glm::dvec3 mean_of(const Coefficients& coefficients);
 
-// The vector that degree 1 of the luminance is, in the coefficients' frame: it points to where the
-// light mostly comes from. Zero without degree 1.
-[[nodiscard]] glm::dvec3 dominant_vector(const Coefficients& radiance);
-
-// |dominant_vector| / (sqrt 3 L_00) of the luminance: 0 for light that comes alike from opposite
-// sides, 1 for one point. Not without degree 1, nor where the mean is not positive.
+// The directionality of sphere/dominant_light.h: 0 for light that comes alike from opposite sides,
+// 1 for one point. Not without degree 1, nor where the mean is not positive.
 [[nodiscard]] std::optional<double> dominance_of(const Coefficients& radiance);
 
 // What the automatic exposure brings a panorama's mean luminance to. A photographer's mid grey,

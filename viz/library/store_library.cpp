@@ -38,8 +38,8 @@ constexpr const char* kSelectItems =
     " FROM items LEFT JOIN projections ON projections.item = id ORDER BY name";
 
 constexpr const char* kSelectQuality =
-    "SELECT name, variant, rms_error, max_error, key_temperature, fill_temperature"
-    " FROM quality JOIN items ON items.id = item";
+    "SELECT name, variant, rms_error, max_error, minimum_irradiance, negative_fraction, contrast,"
+    " directionality, key_temperature, fill_temperature FROM quality JOIN items ON items.id = item";
 
 using Database = std::unique_ptr<sqlite3, decltype(&sqlite3_close_v2)>;
 using Statement = std::unique_ptr<sqlite3_stmt, decltype(&sqlite3_finalize)>;
@@ -170,7 +170,7 @@ Status take_item(const Row& row, const std::filesystem::path& folder, Library& l
   const std::string name = row.text(0);
   const std::string status = row.text(1);
   if (status == "failed") {
-    library.failed.push_back({name, row.text(2)});
+    library.failed.push_back({name, row.text(2), row.text(3)});
     return {};
   }
   if (status != "done") {
@@ -198,15 +198,22 @@ Status take_tag(const Row& row, Library& library) {
 }
 
 // By full name; a variant called plain is the panorama itself.
-Status take_quality(const Row& row, std::unordered_map<std::string, StoredQuality>& quality) {
+Status take_quality(const Row& row, std::unordered_map<std::string, QualityFigures>& quality) {
   const std::string variant = row.text(1);
   const std::string name = variant == kPlainVariant ? row.text(0) : row.text(0) + "." + variant;
-  quality[name] = {row.known(2), row.known(3), row.known(4), row.known(5)};
+  quality[name] = {.rms_error = row.known(2),
+                   .max_error = row.known(3),
+                   .minimum_irradiance = row.known(4),
+                   .negative_fraction = row.known(5).value_or(0.0),
+                   .contrast = row.known(6),
+                   .directionality = row.known(7),
+                   .key_temperature = row.known(8),
+                   .fill_temperature = row.known(9)};
   return {};
 }
 
 Status add_quality(const std::filesystem::path& store, sqlite3* database, Library& library) {
-  std::unordered_map<std::string, StoredQuality> quality;
+  std::unordered_map<std::string, QualityFigures> quality;
   SHOAL_RETURN_IF_ERROR(query(store, database, kSelectQuality,
                               [&](const Row& row) { return take_quality(row, quality); }));
   for (Panorama& panorama : library.panoramas) {

@@ -45,14 +45,18 @@ std::string frame_data(const Frame& frame) {
                      mirrors(frame));
 }
 
+// The names are those of the table of quality.
 std::string figures_data(const LightFigures& figures, const Frame& frame) {
+  const QualityFigures& quality = figures.quality;
   std::string out = fmt::format(
-      R"({{"mean":{},"meanRgb":{},"minimum":{},"maximum":{},"negative":{},"contrast":{},)"
-      R"("dominance":{})",
+      R"({{"mean":{},"mean_rgb":{},"contrast":{},"directionality":{},"minimum_irradiance":{},)"
+      R"("negative_fraction":{},"rms_error":{},"max_error":{},"key_temperature":{},)"
+      R"("fill_temperature":{})",
       short_number(figures.mean_luminance), vector_text(figures.mean),
-      short_number(figures.minimum_irradiance), short_number(figures.maximum_irradiance),
-      short_number(figures.negative_fraction), optional_number(figures.contrast),
-      optional_number(figures.dominance));
+      optional_number(quality.contrast), optional_number(quality.directionality),
+      optional_number(quality.minimum_irradiance), short_number(quality.negative_fraction),
+      optional_number(quality.rms_error), optional_number(quality.max_error),
+      optional_number(quality.key_temperature), optional_number(quality.fill_temperature));
   if (figures.direction) {
     out += fmt::format(R"(,"direction":{},"elevation":{},"azimuth":{})",
                        vector_text(native_to_frame(frame) * *figures.direction),
@@ -71,24 +75,16 @@ std::string pixels_data(const PixelFigures& pixels) {
       short_numbers(pixels.minimum), short_numbers(pixels.maximum), short_numbers(pixels.mean));
 }
 
-std::string quality_data(const StoredQuality& quality) {
-  return fmt::format(R"({{"rms":{},"maximum":{},"key":{},"fill":{}}})",
-                     optional_number(quality.rms_error), optional_number(quality.max_error),
-                     optional_number(quality.key_temperature),
-                     optional_number(quality.fill_temperature));
-}
-
 std::string entry_data(const IndexEntry& entry, const Frame& frame) {
   const Panorama& panorama = *entry.panorama;
   return fmt::format(
-      R"({{"name":{},"variant":{},"file":{},"quantity":{},"degree":{},"tags":{},"warnings":{},)"
-      R"("thumbnail":{},"ball":{},"exposure":{},"figures":{},"quality":{},"pixels":{}}})",
+      R"({{"name":{},"variant":{},"file":{},"quantity":{},"degree":{},"changed":{},"tags":{},)"
+      R"("warnings":{},"thumbnail":{},"ball":{},"exposure":{},"figures":{},"pixels":{}}})",
       script_quoted(panorama.name), script_quoted(panorama.variant),
       script_quoted(panorama.file.filename().string()), script_quoted(name_of(panorama.quantity)),
-      panorama.coefficients.degree, strings(panorama.tags), strings(panorama.warnings),
-      script_quoted(entry.thumbnail), entry.ball, short_number(entry.exposure),
-      figures_data(entry.figures, frame),
-      panorama.quality ? quality_data(*panorama.quality) : "null",
+      panorama.coefficients.degree, panorama.changed, strings(panorama.tags),
+      strings(entry.warnings), script_quoted(entry.thumbnail), entry.ball,
+      short_number(entry.exposure), figures_data(entry.figures, frame),
       panorama.pixels ? pixels_data(*panorama.pixels) : "null");
 }
 

@@ -19,6 +19,7 @@ struct IndexEntry {
   double exposure = 1.0;  // automatic_exposure
   std::string thumbnail;  // a path beside the page or a data: URL; empty where there is none
   std::string ball;       // what irradiance_ball gives
+  std::vector<std::string> warnings;  // of the panorama, without folders
 };
 
 // Irradiance over pi to degree 2, native frame, as "[[r,g,b], ...]" of the polynomials' factors

@@ -16,6 +16,7 @@
 #include "report/page_data.h"
 #include "report/picture.h"
 #include "report/script_text.h"
+#include "sphere/linear_operations.h"
 
 namespace shoal::viz {
 namespace {
@@ -71,12 +72,33 @@ void remove_stale(const fs::path& folder, const std::set<fs::path>& kept,
   if (!stale.empty() && fs::is_empty(folder, ignored)) fs::remove(folder, ignored);
 }
 
+// A page may go to other machines, and these need not know how this one's folders are called.
+std::string without_folder(std::string text, const fs::path& file) {
+  const std::string folder = (file.parent_path() / "").string();
+  if (!file.is_absolute()) return text;
+  for (std::size_t at = 0; (at = text.find(folder, at)) != std::string::npos;) {
+    text.erase(at, folder.size());
+  }
+  return text;
+}
+
+// The light's own, but where the pixels are those before a variant or its entry changed them.
+double exposure_of_pixels(const Panorama& panorama, double of_light) {
+  if (!panorama.changed || !panorama.pixels) return of_light;
+  const auto& [r, g, b] = panorama.pixels->mean;
+  const double mean = luminance(glm::dvec3(r, g, b));
+  return mean > 0.0 ? kMeanTone / mean : of_light;
+}
+
 // One report while it is written.
 class ReportWriter {
  public:
   ReportWriter(const Library& library, const PictureSource& pictures,
                const ReportSettings& settings)
-      : library_(library), pictures_(pictures), settings_(settings), failed_(library.failed) {
+      : library_(library), pictures_(pictures), settings_(settings) {
+    for (const FailedPanorama& failed : library.failed) {
+      failed_.push_back({failed.name, without_folder(failed.error, failed.file)});
+    }
     for (std::size_t i = 0; i < library.panoramas.size(); ++i) {
       const Panorama& panorama = library.panoramas[i];
       if (all_finite(panorama.coefficients)) {
@@ -108,13 +130,18 @@ class ReportWriter {
     const Panorama& panorama = library_.panoramas[index];
     const Coefficients radiance = radiance_of(panorama);
     const Pixels& pixels = pictures_.get(index, settings_.thumbnail_width);
-    const std::string note = pixels.empty() ? pictures_.why_empty(index) : std::string();
-    IndexEntry entry{&panorama, light_figures(radiance), automatic_exposure(radiance), "",
-                     irradiance_ball(radiance)};
+    std::string note;
+    if (pixels.empty()) note = without_folder(pictures_.why_empty(index), panorama.file);
+    IndexEntry entry{&panorama, light_figures(panorama),   automatic_exposure(radiance),
+                     "",        irradiance_ball(radiance), {}};
+    for (const std::string& warning : panorama.warnings) {
+      entry.warnings.push_back(without_folder(warning, panorama.file));
+    }
     std::string data = panorama_data(radiance, settings_.frame, pixels, note);
     std::string thumbnail;
     if (!pixels.empty()) {
-      thumbnail = srgb_png(shrunk(pixels, kTableWidth), entry.exposure);
+      thumbnail =
+          srgb_png(shrunk(pixels, kTableWidth), exposure_of_pixels(panorama, entry.exposure));
     }
     if (shown_.size() == 1) {
       inlined_ = std::move(data);

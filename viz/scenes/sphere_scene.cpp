@@ -13,6 +13,7 @@
 #include "scenes/pictures.h"
 #include "scenes/scene_parts.h"
 #include "scenes/shared_camera.h"
+#include "sphere/dominant_light.h"
 #include "sphere/linear_operations.h"
 
 namespace shoal::viz {
@@ -38,9 +39,8 @@ struct Look {
 
 // Where the light mostly comes from, in the frame.
 glm::vec3 dominant_direction(const Coefficients& radiance, const Frame& frame) {
-  const glm::dvec3 vector = dominant_vector(radiance);
-  const double length = glm::length(vector);
-  return length > 0.0 ? glm::vec3(native_to_frame(frame) * vector / length) : glm::vec3(0.0f);
+  const auto found = dominant_light(radiance, radiance.degree);
+  return found ? glm::vec3(native_to_frame(frame) * found->light.direction) : glm::vec3(0.0f);
 }
 
 // A square where the dominant direction lies in the flat picture.

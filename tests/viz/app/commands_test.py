@@ -1,7 +1,10 @@
 """shoal render and report: which files they write, and what they say where they cannot."""
 
+import csv
+import json
 import os
 import pathlib
+import re
 import unittest
 
 import support
@@ -146,6 +149,36 @@ class Reporting(Commands):
         self.assertIn("p01", page)
         self.assertNotIn("p02", page)
         self.assertIn("p00", self.expect(2, "report", "out", "--panorama", "q").err)
+
+    def figures_on_page(self, *source):
+        self.expect(0, "report", *source, "-o", "page")
+        page = (self.folder / "page/index.html").read_text()
+        data = json.loads(re.search(r'id="data">(.*?)</script>', page, re.DOTALL).group(1))
+        return {(p["name"], p["variant"] or "plain"): p["figures"] for p in data["panoramas"]}
+
+    def assert_figures(self, found, expected, name):
+        """The page has six significant digits."""
+        if expected == "":
+            self.assertIsNone(found, name)
+        else:
+            self.assertAlmostEqual(found, float(expected), delta=1e-5 * abs(float(expected)) + 1e-9, msg=name)
+
+    # Whether the store tells the figures, or the page's maker takes them from the coefficients of a
+    # table, where no window took a part of these.
+    def test_the_page_and_the_table_of_quality_agree(self):
+        self.make_output("tables: [csv, quality]\ndefaults: {quality: 6}\n"
+                         "variants: {plain: {}, soft: {window: hann}, turned: {rotate: {yaw: 70}}}\n")
+        with open(self.folder / "out/quality.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), 9)
+        stored, measured = self.figures_on_page("out"), self.figures_on_page("out/coefficients.csv")
+        for row in rows:
+            key = row["panorama"], row["variant"]
+            for name in ("contrast", "directionality", "minimum_irradiance", "negative_fraction",
+                         "key_temperature", "fill_temperature", "rms_error", "max_error"):
+                self.assert_figures(stored[key][name], row[name], name)
+                if key[1] != "soft":
+                    self.assert_figures(measured[key][name], "" if "_error" in name else row[name], name)
 
 
 if __name__ == "__main__":

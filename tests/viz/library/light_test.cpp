@@ -35,12 +35,7 @@ TEST(Exposure, BringsTheMeanToItsTone) {
 
 // Degree 1 of a light from u is 3/(4 pi) (u . d), degree 0 1/(4 pi): Y_1m(u) = sqrt(3/(4 pi)) u.
 TEST(Dominance, IsOneForOneDirection) {
-  const glm::dvec3 direction(0.48, -0.6, 0.64);
-  const Coefficients light = light_from(direction, {3.0, 1.0, 0.5}, 3);
-  // 0.2126 R + 0.7152 G + 0.0722 B (ITU-R BT.709).
-  const double luminance = 0.2126 * 3.0 + 0.7152 * 1.0 + 0.0722 * 0.5;
-  const double length = luminance * std::sqrt(0.75 / std::numbers::pi);
-  EXPECT_NEAR(glm::distance(dominant_vector(light), length * direction), 0.0, 1e-14);
+  const Coefficients light = light_from({0.48, -0.6, 0.64}, {3.0, 1.0, 0.5}, 3);
   EXPECT_NEAR(*dominance_of(light), 1.0, 1e-14);
 }
 
@@ -53,7 +48,6 @@ TEST(Dominance, IsZeroWhereOppositeSidesAreAlike) {
   EXPECT_NEAR(*dominance_of(light), 0.0, 1e-15);
   EXPECT_FALSE(dominance_of(Coefficients(2))) << "black has none";
   EXPECT_FALSE(dominance_of(light_from({0.0, 0.0, 1.0}, {1.0, 1.0, 1.0}, 0)));
-  EXPECT_EQ(dominant_vector(Coefficients(0)), glm::dvec3(0.0));
 }
 
 // 0.5 linear is 0.7354 in sRGB, and 0.04045 ends the straight piece (IEC 61966-2-1).

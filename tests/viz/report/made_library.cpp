@@ -87,6 +87,18 @@ PixelFigures made_figures(std::size_t number) {
   return figures;
 }
 
+QualityFigures made_quality(std::size_t number) {
+  const auto n = static_cast<double>(number);
+  return {.rms_error = 0.001 * (1.0 + n),
+          .max_error = 0.004 * (1.0 + n),
+          .minimum_irradiance = 0.2 - 0.01 * n,
+          .negative_fraction = number > 20 ? 0.01 : 0.0,
+          .contrast = 0.9 - 0.01 * n,
+          .directionality = 0.3 + 0.01 * n,
+          .key_temperature = 4500.0 + 100.0 * n,
+          .fill_temperature = 7000.0};
+}
+
 }  // namespace
 
 Library made_library(std::size_t count, int degree) {
@@ -99,6 +111,7 @@ Library made_library(std::size_t count, int degree) {
     panorama.file = panorama.name + ".hdr";
     panorama.coefficients = projected(Light(i), degree);
     panorama.pixels = made_figures(i);
+    if (i % 4 != 3) panorama.quality = made_quality(i);
     panorama.tags = {panorama.coefficients.channels[1][0] > 2.0 ? "clear" : "dim"};
     if (i % 5 == 4) panorama.tags.push_back("red");
     if (i % 4 == 3) panorama.warnings.push_back("12 pixels above 65504 were clamped");
@@ -126,6 +139,15 @@ PictureSource MadePictures::source() {
             return pixels_;
           },
           [](std::size_t) { return std::string(); }};
+}
+
+PictureSource no_pictures(const std::string& why) {
+  return {[](std::span<const std::size_t>, int) {},
+          [](std::size_t, int) -> const Pixels& {
+            static const Pixels none;
+            return none;
+          },
+          [why](std::size_t) { return why; }};
 }
 
 std::vector<std::string> hostile_names() {

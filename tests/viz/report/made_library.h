@@ -12,7 +12,8 @@
 namespace shoal::viz::test {
 
 // `count` panoramas of degree `degree`, coefficients by summing over a 64x32 picture of the same
-// light. Every fourth has a warning; tags are "clear", "dim" and "red".
+// light. Every fourth has a warning, the others have figures of quality that nobody measured; tags
+// are "clear", "dim" and "red".
 [[nodiscard]] Library made_library(std::size_t count, int degree);
 
 // The picture behind made_library's panorama.
@@ -26,6 +27,9 @@ class MadePictures {
  private:
   Pixels pixels_;
 };
+
+// There is none of any panorama, and this is why.
+[[nodiscard]] PictureSource no_pictures(const std::string& why);
 
 // Names that break pages which paste them.
 [[nodiscard]] std::vector<std::string> hostile_names();

@@ -90,7 +90,11 @@ int main(int argc, char** argv) {
                       {names[0], "is no picture: " + names[1]}};
   }
   viz::test::MadePictures pictures;
-  const Status written = write_report(library, pictures.source(), settings, {});
+  const bool bare = settings.thumbnail_width == 0;
+  if (bare) settings.thumbnail_width = 512;
+  const Status written =
+      write_report(library, bare ? viz::test::no_pictures("it has no picture") : pictures.source(),
+                   settings, {});
   if (!written) {
     std::cerr << written.error().text() << "\n";
     return 1;

@@ -44,14 +44,87 @@ await run({
     assert.deepEqual(await names(), ['sky_0014', 'sky_0019']);
     await page.press('Escape');
     assert.equal((await names()).length, 40);
-    await page.type('dominance>0.4 dominance<0.5');
+    await page.type('directionality>0.4 dir<50%');
     const kept = await names();
     const expected = await page.evaluate(
-        `report.library.panoramas.filter(p => p.figures.dominance > 0.4 && p.figures.dominance < 0.5).map(p => p.name)`);
+        `report.library.panoramas.filter(p => p.figures.directionality > 0.4 && p.figures.directionality < 0.5).map(p => p.name)`);
     assert.ok(kept.length > 0 && kept.length < 40);
     assert.deepEqual(kept, expected);
     await page.type(' nothingiscalledthis');
     assert.equal(await page.evaluate(`document.getElementById('nothing').hidden`), false);
+  },
+
+  // Every fourth panorama has no stored errors; the others have rms_error 0.001 (1 + number).
+  async 'figures of quality sort and filter'() {
+    await page.go(library.url);
+    const errors = () => page.evaluate(`report.list.order.map(i => report.library.panoramas[i].figures.rms_error)`);
+    await page.click('th[data-key="rms_error"] button');
+    const falling = await errors();
+    assert.deepEqual(falling.slice(0, 30), falling.slice(0, 30).toSorted((a, b) => b - a));
+    assert.ok(falling.slice(30).every(error => error === null));
+    await page.press('/');
+    await page.type('rms>=2% key<7000');
+    const kept = await page.evaluate(`report.list.order.map(i => report.library.panoramas[i].figures)`);
+    assert.ok(kept.length > 0 && kept.length < 30);
+    assert.ok(kept.every(figures => figures.rms_error >= 0.02 && figures.key_temperature < 7000));
+  },
+
+  async 'a filter that cannot be followed is told'() {
+    const told = async text => {
+      await page.go(library.url);
+      await page.press('/');
+      await page.type(text);
+      return page.evaluate(`document.getElementById('filter-told').textContent`);
+    };
+    assert.match(await told('foo>3'), /No figure is called “foo”.*rms_error.*fill_temperature/);
+    assert.equal((await names()).length, 40);
+    assert.match(await told('m<1'), /“m” may be mean or minimum_irradiance or max_error/);
+    assert.match(await told('mean>bright'), /mean is compared with a number/);
+    assert.equal(await told('mean>0.5 sky'), '');
+    assert.equal(await told('<b>bold</b'), '', 'a tag holds it');
+  },
+
+  // Nothing is cut off: what does not fit can be scrolled to, and both tables say so.
+  async 'a narrow window scrolls both tables and says so'() {
+    await page.send('Emulation.setDeviceMetricsOverride', {width: 400, height: 800, deviceScaleFactor: 1, mobile: false});
+    await page.go(library.url);
+    const more = () => page.evaluate(`document.getElementById('more').hidden ? 0 : parseInt(document.getElementById('more').textContent)`);
+    assert.equal(await more(), await page.evaluate('report.list.columns.length - 1'));
+    await page.evaluate('window.scrollTo(1e5, 0)');
+    await page.settle();
+    assert.equal(await more(), 0);
+    const [name, last] = await page.evaluate(`[...document.querySelectorAll('#headings th')].slice(1)
+        .map(heading => heading.getBoundingClientRect()).filter((box, i, all) => i === 0 || i === all.length - 1)
+        .map(box => [box.left, box.right])`);
+    assert.ok(name[0] === 0 && last[1] <= 400, 'the names stay');
+    await page.evaluate('report.go(20)');
+    await opened(20);
+    await page.until(`!document.getElementById('coefficients-more').hidden`);
+    await page.evaluate(`document.getElementById('coefficients').scrollLeft = 1e5`);
+    await page.until(`document.getElementById('coefficients-more').hidden`);
+    assert.ok(await page.evaluate('document.documentElement.scrollWidth') <= 400);
+    await page.send('Emulation.clearDeviceMetricsOverride');
+  },
+
+  async 'directions are told in words'() {
+    await page.go(library.url);
+    const said = (elevation, azimuth) => page.evaluate(`directionSentence({elevation: ${elevation}, azimuth: ${azimuth}})`);
+    assert.equal(await said(30.2, 180), '30° above the horizon, behind (azimuth 180°)');
+    assert.equal(await said(-12, -178), '12° below the horizon, behind (azimuth −178°)');
+    assert.equal(await said(0.3, -0.2), 'at the horizon, ahead (azimuth 0°)');
+    assert.equal(await said(5, -90), '5° above the horizon, left (azimuth −90°)');
+    assert.equal(await said(45, 136), '45° above the horizon, behind right (azimuth 136°)');
+    assert.equal(await said(89, 20), 'straight above');
+  },
+
+  async 'a light without pixels shows what it has'() {
+    const bare = made('bare', 3, 2, 0);
+    await page.go(bare.url);
+    await page.click('#rows tr[data-row="1"]');
+    await opened(1);
+    assert.equal(await page.evaluate(`document.getElementById('note').textContent`), 'It has no picture');
+    assert.equal(await page.evaluate(`document.getElementById('picture-radiance').clientWidth`), 0);
+    assert.ok(await page.evaluate(`document.getElementById('picture-reconstruction').clientWidth`) > 100);
   },
 
   async 'the keyboard opens, steps and closes'() {
@@ -184,7 +257,7 @@ await run({
         act(i);
         return performance.now() - began;
       }));
-      return [least(() => report.list.sortBy(kColumns.find(column => column.key === 'contrast'))),
+      return [least(() => report.list.sortBy(kFigures.find(figure => figure.name === 'contrast'))),
               least(i => { window.scrollTo(0, 6000 * (i + 1)); report.list.render(); })];
     })()`);
     console.log(`     sorting ${sorting.toFixed(1)} ms, scrolling to other rows ${scrolling.toFixed(1)} ms`);

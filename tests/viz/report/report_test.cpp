@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <glm/geometric.hpp>
 #include <map>
 #include <numbers>
 #include <sstream>
@@ -153,40 +154,61 @@ TEST(Shrunk, KeepsTheMeanOfEqualAreas) {
   EXPECT_EQ(shrunk(pixels, 16).rgb.size(), 16u * 8 * 3);
 }
 
-// Constant radiance 1: irradiance pi everywhere, nothing dominates.
+Panorama panorama_of(Coefficients radiance) {
+  Panorama panorama;
+  panorama.coefficients = std::move(radiance);
+  return panorama;
+}
+
+// Constant radiance 1: irradiance is its mean everywhere, nothing dominates.
 TEST(LightFigures, OfAConstantLight) {
   Coefficients radiance(4);
   for (auto& channel : radiance.channels) channel[0] = std::sqrt(4.0 * std::numbers::pi);
-  const LightFigures figures = light_figures(radiance);
+  const LightFigures figures = light_figures(panorama_of(radiance));
   EXPECT_NEAR(figures.mean_luminance, 1.0, 1e-15);
-  EXPECT_NEAR(figures.minimum_irradiance, std::numbers::pi, 1e-14);
-  EXPECT_NEAR(figures.maximum_irradiance, std::numbers::pi, 1e-14);
-  EXPECT_EQ(figures.negative_fraction, 0.0);
-  EXPECT_NEAR(*figures.contrast, 0.0, 1e-15);
-  EXPECT_EQ(*figures.dominance, 0.0);
+  EXPECT_NEAR(*figures.quality.minimum_irradiance, 1.0, 1e-14);
+  EXPECT_EQ(figures.quality.negative_fraction, 0.0);
+  EXPECT_NEAR(*figures.quality.contrast, 0.0, 1e-15);
+  EXPECT_EQ(*figures.quality.directionality, 0.0);
+  EXPECT_FALSE(figures.quality.rms_error);
   EXPECT_FALSE(figures.direction);
 }
 
-// A point of light at u has coefficients Y_lm(u): dominance 1, direction u. To degree 1 its
-// irradiance is 1/4 + cos(g)/2: least -1/4, most 3/4, below zero where cos g < -1/2, on a
-// quarter of the sphere. The grid's cells are pi/64 wide, so the zero line, of half the sphere's
-// circumference times sin 60, errs by less than 1 % of the area.
-TEST(LightFigures, OfAPointOfLight) {
-  const glm::dvec3 u(0.48, -0.6, 0.64);
+Coefficients point_of_light(const glm::dvec3& u) {
   Coefficients radiance(1);
   for (auto& channel : radiance.channels) {
     const double scale = std::sqrt(3.0 / (4.0 * std::numbers::pi));
     channel = {0.5 / std::sqrt(std::numbers::pi), scale * u.y, scale * u.z, scale * u.x};
   }
-  const LightFigures figures = light_figures(radiance);
-  EXPECT_NEAR(*figures.dominance, 1.0, 1e-14);
-  EXPECT_NEAR(figures.direction->x, u.x, 1e-15);
-  EXPECT_NEAR(figures.direction->y, u.y, 1e-15);
-  EXPECT_NEAR(figures.direction->z, u.z, 1e-15);
-  const double grid = 0.25 * std::pow(std::numbers::pi / kFigureRows, 2) * 0.75;
-  EXPECT_NEAR(figures.minimum_irradiance, -0.25, grid);
-  EXPECT_NEAR(figures.maximum_irradiance, 0.75, grid);
-  EXPECT_NEAR(figures.negative_fraction, 0.25, 0.01);
+  return radiance;
+}
+
+// A point of light at u has coefficients Y_lm(u): directionality 1, direction u. To degree 1 its
+// irradiance is 1/4 + cos(g)/2, of mean 1/4: least -1 of the mean, (max - min) / (max + min) = 2,
+// below zero where cos g < -1/2, on a quarter of the sphere. The grid's cells are pi/64 wide, so
+// the zero line, of half the sphere's circumference times sin 60, errs by less than 1 % of the
+// area. Extrema are climbed to within rounding.
+TEST(LightFigures, OfAPointOfLight) {
+  const glm::dvec3 u(0.48, -0.6, 0.64);
+  const LightFigures figures = light_figures(panorama_of(point_of_light(u)));
+  EXPECT_NEAR(*figures.quality.directionality, 1.0, 1e-14);
+  EXPECT_NEAR(glm::distance(*figures.direction, u), 0.0, 1e-15);
+  EXPECT_NEAR(*figures.quality.minimum_irradiance, -1.0, 1e-11);
+  EXPECT_NEAR(*figures.quality.contrast, 2.0, 1e-11);
+  EXPECT_NEAR(figures.quality.negative_fraction, 0.25, 0.01);
+}
+
+// The store knows the light without its window and to a higher degree.
+TEST(LightFigures, AreTheStoresWhereItHasThem) {
+  Panorama panorama = panorama_of(point_of_light({0.0, 0.6, 0.8}));
+  panorama.quality.emplace();
+  panorama.quality->rms_error = 0.125;
+  panorama.quality->directionality = 0.5;
+  const LightFigures figures = light_figures(panorama);
+  EXPECT_EQ(figures.quality.rms_error, 0.125);
+  EXPECT_EQ(figures.quality.directionality, 0.5);
+  EXPECT_FALSE(figures.quality.contrast);
+  EXPECT_TRUE(figures.direction);
 }
 
 // sphere/conventions.h: the picture's centre is -x, a quarter turn to the right of it -y, up +z.
@@ -194,6 +216,7 @@ TEST(Directions, AreToldByThePicture) {
   EXPECT_EQ(azimuth_of({-1, 0, 0}), 0.0);
   EXPECT_EQ(azimuth_of({0, -1, 0}), 90.0);
   EXPECT_EQ(azimuth_of({0, 1, 0}), -90.0);
+  EXPECT_EQ(azimuth_of({1, 0, 0}), 180.0) << "behind, not -180";
   EXPECT_EQ(elevation_of({0, 0, 1}), 90.0);
   EXPECT_EQ(elevation_of({1, 0, 0}), 0.0);
 }
@@ -263,6 +286,22 @@ TEST(WriteReport, HoldsTheTablesNumbers) {
   ASSERT_TRUE(write_made(library, folder.path()));
   EXPECT_THAT(content_of(folder / "panoramas/000001.js"),
               HasSubstr("\"radiance\":\"" + exact_coefficients(library.panoramas[1].coefficients)));
+}
+
+// Texts of the store name files in full; the page leaves out where they lie.
+TEST(WriteReport, TellsNoFolderOfTheMachine) {
+  Library library = test::made_library(2, 2);
+  for (Panorama& panorama : library.panoramas) panorama.file = "/home/some body/sky.hdr";
+  library.panoramas[0].warnings = {"/home/some body/sky.hdr: 12 pixels are negative"};
+  library.failed = {
+      {"cut", "/home/some body/cut.hdr: ends after row 3", "/home/some body/cut.hdr"}};
+  const PictureSource source = test::no_pictures("no file \"/home/some body/sky.hdr\"");
+  const shoal::test::TemporaryFolder folder;
+  ASSERT_TRUE(write_report(library, source, {folder.path(), 64, {}}, {}));
+  for (const auto& [name, content] : files_below(folder.path())) {
+    EXPECT_THAT(content, Not(HasSubstr("some body"))) << name;
+  }
+  EXPECT_THAT(content_of(folder / "index.html"), HasSubstr("cut.hdr: ends after row 3"));
 }
 
 TEST(WriteReport, ListsCoefficientsThatAreNotFiniteAmongTheFailed) {

@@ -1,7 +1,6 @@
 // Light as arrays of numbers: decoded, measured, painted.
 
 const kLuminance = [0.2126, 0.7152, 0.0722];
-const kFigureRows = 64;
 
 function bytesOfBase64(text) {
   return Uint8Array.from(atob(text), character => character.charCodeAt(0));
@@ -51,10 +50,6 @@ function irradianceOf(radiance) {
   return withGains(radiance, clampedCosineGain);
 }
 
-function luminanceOf(channels) {
-  return channels[0].map((_, i) => channels.reduce((sum, channel, c) => sum + kLuminance[c] * channel[i], 0));
-}
-
 function degreeOf(channels) {
   return Math.round(Math.sqrt(channels[0].length)) - 1;
 }
@@ -65,33 +60,12 @@ function synthesisedPicture(channels, degree, height) {
   return {width: 2 * height, height, rgb: synthesise(channels, degree, thetas, phis)};
 }
 
-// Sums of squares of the coefficients' luminance, a degree each.
+// Sums of squares of the coefficients over the channels, a degree each.
 function energies(channels) {
-  const luminance = luminanceOf(channels);
   return Array.from({length: degreeOf(channels) + 1}, (_, l) => {
-    let sum = 0;
-    for (let m = -l; m <= l; ++m) sum += luminance[coefficientIndex(l, m)] ** 2;
-    return sum;
+    const parts = channels.map(channel => channel.subarray(coefficientIndex(l, -l), coefficientIndex(l, l) + 1));
+    return parts.reduce((sum, part) => part.reduce((total, value) => total + value * value, sum), 0);
   });
-}
-
-// Extrema of the luminance's irradiance to a degree, and the share of the sphere below zero.
-function irradianceFigures(radiance, degree) {
-  const {thetas, phis} = texelAngles(kFigureRows);
-  const values = synthesise([luminanceOf(irradianceOf(radiance))], degree, thetas, phis);
-  let minimum = Infinity, maximum = -Infinity, negative = 0;
-  thetas.forEach((_, row) => {
-    const top = Math.PI * row / kFigureRows, bottom = Math.PI * (row + 1) / kFigureRows;
-    const weight = (Math.cos(top) - Math.cos(bottom)) / (2 * phis.length);
-    for (let column = 0; column < phis.length; ++column) {
-      const value = values[row * phis.length + column];
-      minimum = Math.min(minimum, value);
-      maximum = Math.max(maximum, value);
-      if (value < 0) negative += weight;
-    }
-  });
-  const contrast = maximum + minimum > 0 ? (maximum - minimum) / (maximum + minimum) : null;
-  return {minimum, maximum, negative, contrast};
 }
 
 // Eight-bit sRGB of linear values in [0, 1] by a table of 4096 steps; it errs by 0.84 at most.

@@ -4,95 +4,17 @@ const kRowHeight = 60;
 const kRowsBeyondSight = 8;
 const kWordOrder = new Intl.Collator('en', {numeric: true, sensitivity: 'base'});
 
-function element(kind, className, text) {
-  const made = document.createElement(kind);
-  if (className) made.className = className;
-  if (text !== undefined) made.textContent = text;
-  return made;
-}
+const kLookWidth = 150;
+const kLeastNameWidth = 200;
 
-// A number that people read: three decimals, fewer for large ones, a power of ten for very large and
-// very small ones.
-function figureText(value) {
-  if (value === null || value === undefined) return '–';
-  const size = Math.abs(value);
-  let text;
-  if (size !== 0 && (size < 5e-4 || size >= 1e6)) text = value.toExponential(2);
-  else text = value.toFixed(size >= 1000 ? 0 : size >= 100 ? 1 : size >= 10 ? 2 : 3);
-  return text.replaceAll('-', '−');
-}
-
-function angleText(value) {
-  return value === undefined ? '–' : `${Math.round(value)}°`.replace('-', '−');
-}
-
-function sizeText(pixels) {
-  return pixels ? `${pixels.width} × ${pixels.height}` : '–';
-}
-
-function directionText(figures) {
-  if (figures.elevation === undefined) return '–';
-  const side = Math.round(figures.azimuth) < 0 ? '←' : '→';
-  return `${angleText(figures.elevation)} ↑  ${angleText(Math.abs(figures.azimuth))} ${side}`;
-}
-
-// What each column shows and sorts by; `only` where a column is left out if no panorama has it.
-const kColumns = [
-  {key: 'look', title: '', width: '156px', text: true},
-  {key: 'name', title: 'Panorama', text: true, value: p => `${p.name} ${p.variant}`},
-  {key: 'mean', title: 'Mean', width: '84px', help: 'Mean luminance of the radiance over the sphere',
-   value: p => p.figures.mean, show: p => figureText(p.figures.mean)},
-  {key: 'contrast', title: 'Contrast', width: '98px', help: '(max − min) / (max + min) of the irradiance',
-   value: p => p.figures.contrast, show: p => figureText(p.figures.contrast)},
-  {key: 'dominance', title: 'Dominance', width: '112px',
-   help: 'How much of the light comes from one side: 0 evenly, 1 one point',
-   value: p => p.figures.dominance, show: p => figureText(p.figures.dominance)},
-  {key: 'elevation', title: 'Light from', width: '132px', hide: 'hide-small',
-   help: 'Dominant direction: degrees above the horizon, degrees left or right of the picture’s centre',
-   value: p => p.figures.elevation, show: p => directionText(p.figures)},
-  {key: 'minimum', title: 'Min. irr.', width: '96px', hide: 'hide-small',
-   help: 'Smallest irradiance in any direction; below zero the reconstruction rings', value: p => p.figures.minimum,
-   show: p => figureText(p.figures.minimum), bad: p => p.figures.minimum < 0},
-  {key: 'degree', title: 'Degree', width: '84px', hide: 'hide-medium', value: p => p.degree,
-   show: p => String(p.degree)},
-  {key: 'width', title: 'Pixels', width: '124px', hide: 'hide-medium', only: p => p.pixels,
-   value: p => p.pixels ? p.pixels.width : null, show: p => sizeText(p.pixels)},
-  {key: 'warnings', title: 'Warnings', width: '98px', hide: 'hide-medium', only: p => p.warnings.length > 0,
-   value: p => p.warnings.length,
-   show: p => p.warnings.length ? String(p.warnings.length) : '', bad: p => p.warnings.length > 0},
-];
-
-const kFilterFigures = {
-  mean: p => p.figures.mean, contrast: p => p.figures.contrast, dominance: p => p.figures.dominance,
-  elevation: p => p.figures.elevation, azimuth: p => p.figures.azimuth, minimum: p => p.figures.minimum,
-  maximum: p => p.figures.maximum, degree: p => p.degree, width: p => p.pixels ? p.pixels.width : null,
-};
-
-const kComparisons = {
-  '<': (a, b) => a < b, '>': (a, b) => a > b, '<=': (a, b) => a <= b, '>=': (a, b) => a >= b,
-  '=': (a, b) => a === b,
-};
-
-// A filter's words as tests of a panorama. A word is FIGURE<NUMBER and the like, tag:TAG, or text that
-// the name, the variant or a tag holds.
-function filterTests(text) {
-  return text.toLowerCase().split(/\s+/).filter(Boolean).map(word => {
-    const comparison = /^([a-z]+)(<=|>=|<|>|=)(-?[\d.]+(?:e[-+]?\d+)?)$/.exec(word);
-    const figure = comparison && Object.hasOwn(kFilterFigures, comparison[1]) && kFilterFigures[comparison[1]];
-    if (figure) {
-      const compare = kComparisons[comparison[2]], bound = Number(comparison[3]);
-      return p => Number.isFinite(figure(p)) && compare(figure(p), bound);
-    }
-    if (word.startsWith('tag:')) return p => p.tags.some(tag => tag.toLowerCase() === word.slice(4));
-    return p => [p.name, p.variant, ...p.tags].some(part => part.toLowerCase().includes(word));
-  });
-}
+const kNameColumn = {name: 'name', title: 'Panorama', text: true, value: p => `${p.name} ${p.variant}`};
 
 class List {
   // `open(index)` is called when a panorama is chosen.
   constructor(panoramas, open) {
     this.panoramas = panoramas;
-    this.columns = kColumns.filter(({only}) => !only || panoramas.some(only));
+    this.figures = kFigures.filter(figure => figure.title && panoramas.some(p => hasFigure(figure, p)));
+    this.columns = [kNameColumn, ...this.figures];
     this.open = open;
     this.sortKey = null;
     this.descending = false;
@@ -103,29 +25,35 @@ class List {
     this.filter = document.getElementById('filter');
     this.tag = document.getElementById('tag');
     this.warned = document.getElementById('warned');
+    this.more = document.getElementById('more');
+    this.edge = document.getElementById('edge');
     this.makeHeadings();
     this.makeTags();
+    this.nameFigures();
     this.listen();
+    this.measure();
     this.update();
   }
 
   makeHeadings() {
+    const look = element('th', 'look');
+    look.scope = 'col';
+    look.setAttribute('aria-label', 'Thumbnail and irradiance');
+    look.style.width = `${kLookWidth}px`;
     this.headings = this.columns.map(column => {
-      const heading = element('th', [column.text && 'text', column.hide, column.key === 'look' && 'look'].filter(Boolean).join(' '));
+      const heading = element('th', column.text ? 'text name' : '');
       heading.scope = 'col';
-      heading.dataset.key = column.key;
-      if (column.width) heading.style.width = column.width;
-      if (column.title) {
-        const button = heading.appendChild(element('button', '', column.title));
-        button.type = 'button';
-        if (column.help) button.title = column.help;
-        button.addEventListener('click', () => this.sortBy(column));
-      } else {
-        heading.setAttribute('aria-label', 'Thumbnail and irradiance');
-      }
+      heading.dataset.key = column.name;
+      if (column.width) heading.style.width = `${column.width}px`;
+      const button = heading.appendChild(element('button', '', column.title));
+      button.type = 'button';
+      if (column.help) button.title = column.help;
+      button.addEventListener('click', () => this.sortBy(column));
       return heading;
     });
-    document.getElementById('headings').replaceChildren(...this.headings);
+    document.getElementById('headings').replaceChildren(look, ...this.headings);
+    const widths = this.figures.reduce((sum, {width}) => sum + width, kLookWidth + kLeastNameWidth);
+    document.documentElement.style.setProperty('--table-width', `${widths}px`);
   }
 
   makeTags() {
@@ -136,6 +64,13 @@ class List {
       const option = this.tag.appendChild(element('option', '', tag));
       option.value = tag;
     }
+  }
+
+  // Those that a filter may ask for.
+  nameFigures() {
+    const names = kFigures.filter(figure => this.panoramas.some(p => hasFigure(figure, p)))
+        .flatMap(({name}, i) => [...(i ? [', '] : []), element('code', '', name)]);
+    document.getElementById('figure-names').replaceChildren(...names);
   }
 
   listen() {
@@ -165,8 +100,9 @@ class List {
       if (row) this.open(Number(row.dataset.row));
     });
     this.body.addEventListener('keydown', event => this.onRowKey(event));
+    this.more.addEventListener('click', () => window.scrollBy(document.documentElement.clientWidth / 2, 0));
     window.addEventListener('scroll', () => this.render(), {passive: true});
-    window.addEventListener('resize', () => this.render());
+    window.addEventListener('resize', () => { this.measure(); this.render(); });
   }
 
   onRowKey(event) {
@@ -182,17 +118,17 @@ class List {
   }
 
   sortBy(column) {
-    this.descending = this.sortKey === column.key ? !this.descending : !column.text;
-    this.sortKey = column.key;
+    this.descending = this.sortKey === column.name ? !this.descending : !column.text;
+    this.sortKey = column.name;
     for (const heading of this.headings) heading.removeAttribute('aria-sort');
-    this.headings.find(h => h.dataset.key === column.key)
+    this.headings.find(h => h.dataset.key === column.name)
         .setAttribute('aria-sort', this.descending ? 'descending' : 'ascending');
     this.update();
   }
 
   // Whichever way it is sorted, what has no figure comes last, and equals stay in the library's order.
   sorted(indices) {
-    const column = this.columns.find(c => c.key === this.sortKey);
+    const column = this.columns.find(c => c.name === this.sortKey);
     if (!column) return indices;
     const sign = this.descending ? -1 : 1;
     const values = this.panoramas.map(column.value);
@@ -205,7 +141,8 @@ class List {
   }
 
   update() {
-    const tests = filterTests(this.filter.value);
+    const {tests, faults} = readFilter(this.filter.value, this.panoramas);
+    document.getElementById('filter-told').textContent = faults.join(' ');
     if (this.tag.value) tests.push(p => p.tags.includes(this.tag.value));
     if (this.warned.checked) tests.push(p => p.warnings.length > 0);
     const indices = [...this.panoramas.keys()].filter(i => tests.every(test => test(this.panoramas[i])));
@@ -219,8 +156,23 @@ class List {
     this.render();
   }
 
+  // For the parts above and below the table, which are as wide as the window.
+  measure() {
+    document.documentElement.style.setProperty('--view-width', `${document.documentElement.clientWidth}px`);
+  }
+
+  // How many figures lie beyond the window's right edge.
+  tellMore() {
+    const edge = document.documentElement.clientWidth;
+    const count = this.headings.filter(heading => heading.getBoundingClientRect().right > edge + 1).length;
+    this.more.hidden = this.edge.hidden = count === 0;
+    this.table.classList.toggle('scrolled', window.scrollX > kLookWidth);
+    this.more.textContent = `${count} more figure${count === 1 ? '' : 's'} →`;
+  }
+
   // Puts the rows in sight into the document, with gaps for the others.
   render() {
+    this.tellMore();
     if (this.table.closest('[hidden]')) return;
     const top = this.body.getBoundingClientRect().top;
     const first = Math.max(0, Math.floor(-top / kRowHeight) - kRowsBeyondSight);
@@ -255,18 +207,16 @@ class List {
     const panorama = this.panoramas[index];
     const row = element('tr');
     row.dataset.row = index;
-    for (const column of this.columns) {
-      const cell = row.appendChild(element('td', [column.text && 'text', column.hide].filter(Boolean).join(' ')));
-      cell.setAttribute('role', column.key === 'name' ? 'rowheader' : 'gridcell');
-      if (column.key === 'look') {
-        cell.classList.add('look');
-        cell.append(this.makeLook(panorama));
-      } else if (column.key === 'name') {
-        cell.append(...this.makeName(panorama));
-      } else {
-        cell.textContent = column.show(panorama);
-        if (column.bad && column.bad(panorama)) cell.classList.add('bad');
-      }
+    const look = row.appendChild(element('td', 'look'));
+    look.setAttribute('role', 'gridcell');
+    look.append(this.makeLook(panorama));
+    const name = row.appendChild(element('td', 'text name'));
+    name.setAttribute('role', 'rowheader');
+    name.append(...this.makeName(panorama));
+    for (const figure of this.figures) {
+      const value = figure.value(panorama);
+      const cell = row.appendChild(element('td', figure.bad?.(value) ? 'bad' : '', figure.show(value, panorama)));
+      cell.setAttribute('role', 'gridcell');
     }
     return row;
   }
@@ -274,6 +224,7 @@ class List {
   makeLook(panorama) {
     const pair = element('div', 'look-pair');
     const thumbnail = pair.appendChild(element(panorama.thumbnail ? 'img' : 'div', 'thumbnail'));
+    if (!panorama.thumbnail) thumbnail.textContent = 'no picture';
     if (panorama.thumbnail) {
       thumbnail.loading = 'lazy';
       thumbnail.decoding = 'async';
@@ -292,7 +243,7 @@ class List {
     const tags = element('div', 'row-tags');
     if (panorama.variant) tags.append(element('span', '', panorama.variant));
     tags.append(...panorama.tags.map(tag => element('span', 'tag', tag)));
-    if (panorama.warnings.length) tags.append(element('span', 'bad narrow-only', '⚠ ' + panorama.warnings[0]));
+    if (panorama.warnings.length) tags.append(element('span', 'bad', '⚠ ' + panorama.warnings[0]));
     return tags.childElementCount ? [name, tags] : [name];
   }
 

@@ -40,7 +40,7 @@ async function decodedPanorama(data) {
   const canInflate = 'DecompressionStream' in window;
   return {
     picture: data.rgbe && canInflate ? await decodedPicture(data.rgbe, data.width, data.height) : null,
-    note: data.rgbe && !canInflate ? 'This browser is too old to show the picture.' : data.note,
+    note: data.rgbe && !canInflate ? 'This browser is too old to show the picture.' : sentence(data.note),
     native: decodedCoefficients(data.native),
     texts: {radiance: data.radiance.split(' '), irradiance: data.irradiance.split(' ')},
   };
@@ -50,15 +50,17 @@ function chosen(group) {
   return document.querySelector(`input[name="${group}"]:checked`).value;
 }
 
-// What `shoal run` measured of the whole light, whatever degree is shown.
-function qualityRows({rms, maximum, key, fill}) {
-  const rows = [];
-  if (rms !== null) rows.push(['Irr. error, RMS', `${figureText(100 * rms)} %`]);
-  if (maximum !== null) rows.push(['Irr. error, largest', `${figureText(100 * maximum)} % of mean`]);
-  if (key !== null) rows.push(['Key colour', `${Math.round(key)} K`]);
-  if (fill !== null) rows.push(['Fill colour', `${Math.round(fill)} K`]);
-  return rows;
+function sentence(text) {
+  return text && text[0].toUpperCase() + text.slice(1);
 }
+
+// Figures of the panel, by their names.
+const kPanelTitles = {
+  mean: 'Mean luminance', contrast: 'Contrast', directionality: 'Directionality',
+  minimum_irradiance: 'Least irradiance / mean', negative_fraction: 'Irradiance below 0',
+  rms_error: 'Irradiance error, RMS', max_error: 'Irradiance error, largest', key_temperature: 'Key colour',
+  fill_temperature: 'Fill colour',
+};
 
 class PanoramaView {
   constructor(library) {
@@ -83,6 +85,8 @@ class PanoramaView {
     byId('quantity').addEventListener('change', () => { this.showEnergy(); this.showCoefficients(); });
     byId('form').addEventListener('change', () => this.showCoefficients());
     byId('copy').addEventListener('click', () => this.copy());
+    byId('coefficients').addEventListener('scroll', () => this.tellMore(), {passive: true});
+    new ResizeObserver(() => this.tellMore()).observe(byId('coefficients'));
   }
 
   // The promise is kept when the panorama is on the page, or when another has been asked for.
@@ -107,6 +111,7 @@ class PanoramaView {
     if (this.native) {
       this.irradiance = irradianceOf(this.native);
       this.wholeLobes = {};
+      this.showFigures();
       this.showLight();
     } else {
       this.showPictures();
@@ -132,7 +137,6 @@ class PanoramaView {
     this.irradianceMap = synthesisedPicture(overPi, this.degree, kMapHeight);
     this.showPictures();
     this.showLobe();
-    this.showFigures();
     this.showEnergy();
     this.showCoefficients();
   }
@@ -149,12 +153,13 @@ class PanoramaView {
         `${stops < 0 ? '−' : '+'}${Math.abs(stops).toFixed(1)} EV (× ${figureText(factor)})`;
     byId('note').hidden = !this.note && this.picture !== null;
     byId('note').textContent = this.note || 'There is no picture of this panorama.';
+    byId('picture-radiance').hidden = !this.picture;
     const blank = {width: 2, height: 1, rgb: new Float32Array(6)};
     const shown = this.native !== null;
-    paint(byId('picture-radiance'), this.picture || blank, factor);
+    if (this.picture) paint(byId('picture-radiance'), this.picture, factor);
     paint(byId('picture-reconstruction'), shown ? this.reconstruction : blank, factor);
     paint(byId('picture-irradiance'), shown ? this.irradianceMap : blank, factor);
-    byId('radiance-caption').textContent = this.picture ? 'the panorama itself' : '';
+    byId('radiance-caption').textContent = this.picture ? this.entry.changed ? 'the pixels, before this light was made of them' : 'the panorama itself' : '';
     byId('reconstruction-caption').textContent = shown ? `to degree ${this.degree}; blue stripes: negative` : '';
     byId('irradiance-caption').textContent = shown ? 'what a white surface sends back' : '';
   }
@@ -177,24 +182,19 @@ class PanoramaView {
     if (this.lobe.gl) byId('lobe-scale').textContent = `The circles are at ${figureText(scale)}.`;
   }
 
+  // Of all degrees that there are, as the library's table tells them.
   showFigures() {
-    const {figures, quality, pixels, quantity} = this.entry;
-    const at = irradianceFigures(this.native, this.degree);
-    const rows = [
-      ['Mean luminance', figureText(figures.mean)],
-      ['Dominance', figureText(figures.dominance)],
-      ['Irradiance, smallest', figureText(at.minimum), at.minimum < 0],
-      ['Irradiance, largest', figureText(at.maximum)],
-      ['Contrast', figureText(at.contrast)],
-      ['Irradiance below 0', `${(100 * at.negative).toFixed(1)} %`, at.negative > 0],
-    ];
+    const {figures, pixels, quantity, degree} = this.entry;
+    const rows = kFigures.filter(figure => kPanelTitles[figure.name] && hasFigure(figure, this.entry)).map(figure => {
+      const value = figure.value(this.entry);
+      return [kPanelTitles[figure.name], figure.show(value, this.entry), figure.bad?.(value)];
+    });
+    byId('figures-degree').textContent = `to degree ${degree}`;
     if (figures.direction) {
-      rows.push(['Light from', `${angleText(figures.elevation)} above the horizon, ` +
-          `${angleText(Math.abs(figures.azimuth))} ${figures.azimuth < 0 ? 'left' : 'right'} of the centre`, false, true]);
+      rows.push(['Light from', directionSentence(figures), false, true]);
       rows.push(['Direction (x, y, z)', figures.direction.map(figureText).join('  '), false, true]);
     }
-    rows.push(['Mean colour (r, g, b)', figures.meanRgb.map(figureText).join('  '), false, true]);
-    if (quality) rows.push(...qualityRows(quality));
+    rows.push(['Mean colour (r, g, b)', figures.mean_rgb.map(figureText).join('  '), false, true]);
     if (quantity !== 'radiance') rows.push(['Table holds', quantity, false, true]);
     if (pixels) {
       rows.push(['Pixels', pixels.count.toLocaleString('en')]);
@@ -251,8 +251,15 @@ class PanoramaView {
     const shown = isTable ? this.coefficientTable() : element('pre', '', this.copyText());
     byId('coefficients').replaceChildren(shown);
     byId('copied').textContent = '';
+    this.tellMore();
     const quantity = chosen('form') === 'glsl' ? 'irradiance' : chosen('quantity');
     byId('coefficients-title').textContent = `Coefficients of the ${quantity}`;
+  }
+
+  // Whether some of the coefficients lie beyond the right edge.
+  tellMore() {
+    const {scrollWidth, scrollLeft, clientWidth} = byId('coefficients');
+    byId('coefficients-more').hidden = scrollWidth - scrollLeft <= clientWidth + 1;
   }
 
   coefficientTable() {

@@ -81,14 +81,14 @@ class Report {
 
   showList(before) {
     document.title = this.title;
-    window.scrollTo(0, this.scrolled || 0);
+    window.scrollTo(...this.scrolled ?? [0, 0]);
     this.list.render();
     this.list.select(before);
   }
 
   showPanorama(index, before) {
     if (before === null) {
-      this.scrolled = this.scrolled ?? 0;
+      this.scrolled ??= [0, 0];
       window.scrollTo(0, 0);
       byId('panorama-view').focus({preventScroll: true});
     }
@@ -112,7 +112,7 @@ class Report {
   listen() {
     window.addEventListener('hashchange', () => this.follow());
     window.addEventListener('scroll', () => {
-      if (this.current === null) this.scrolled = window.scrollY;
+      if (this.current === null) this.scrolled = [window.scrollX, window.scrollY];
     }, {passive: true});
     byId('close').addEventListener('click', () => this.go(null));
     byId('previous').addEventListener('click', () => this.step(-1));
