@@ -150,6 +150,28 @@ await run({
     assert.equal(await page.evaluate(`document.activeElement.dataset.row`), '39');
   },
 
+  // Tab comes by every control of both views, and each is outlined; of a choice of several the one made.
+  async 'every control is reached and shows its focus'() {
+    for (const [view, count] of [['', 10], ['#panorama=20', 13]]) {
+      await page.go(library.url + view);
+      if (view) await opened(20);
+      const controls = new Set();
+      for (let i = 0; i < 30; ++i) {
+        await page.press('Tab');
+        const [name, style] = await page.evaluate(`(() => {
+          const focused = document.activeElement;
+          if (focused === document.body) return ['', ''];
+          const shown = focused.type === 'radio' ? focused.nextElementSibling : focused;
+          return [focused.outerHTML.slice(0, 80), getComputedStyle(shown).outlineStyle];
+        })()`);
+        if (!name) break;
+        assert.notEqual(style, 'none', name);
+        controls.add(name);
+      }
+      assert.ok(controls.size >= count, [...controls].join('\n'));
+    }
+  },
+
   async 'the lobe turns under the mouse and under the arrow keys'() {
     await openFirst('sky_0020');
     const still = await page.picture('#lobe');

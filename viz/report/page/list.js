@@ -38,7 +38,7 @@ class List {
   makeHeadings() {
     const look = element('th', 'look');
     look.scope = 'col';
-    look.setAttribute('aria-label', 'Thumbnail and irradiance');
+    look.append(element('span', 'visually-hidden', 'Thumbnail and irradiance'));
     look.style.width = `${kLookWidth}px`;
     this.headings = this.columns.map(column => {
       const heading = element('th', column.text ? 'text name' : '');
@@ -143,6 +143,7 @@ class List {
   update() {
     const {tests, faults} = readFilter(this.filter.value, this.panoramas);
     document.getElementById('filter-told').textContent = faults.join(' ');
+    document.getElementById('filter-help').hidden = faults.length > 0;
     if (this.tag.value) tests.push(p => p.tags.includes(this.tag.value));
     if (this.warned.checked) tests.push(p => p.warnings.length > 0);
     const indices = [...this.panoramas.keys()].filter(i => tests.every(test => test(this.panoramas[i])));
@@ -166,6 +167,9 @@ class List {
     const edge = document.documentElement.clientWidth;
     const count = this.headings.filter(heading => heading.getBoundingClientRect().right > edge + 1).length;
     this.more.hidden = this.edge.hidden = count === 0;
+    const {top, bottom} = this.table.getBoundingClientRect();
+    this.edge.style.top = `${Math.max(0, top)}px`;
+    this.edge.style.bottom = `${Math.max(0, window.innerHeight - bottom)}px`;
     this.table.classList.toggle('scrolled', window.scrollX > kLookWidth);
     this.more.textContent = `${count} more figure${count === 1 ? '' : 's'} →`;
   }

@@ -1,6 +1,6 @@
 // The page: which view is on, the theme, the keys.
 
-const kThemes = {automatic: '◐ Auto', light: '○ Light', dark: '● Dark'};
+const kThemes = {automatic: ['◐', 'Auto'], light: ['○', 'Light'], dark: ['●', 'Dark']};
 
 // Pages from disk may have no storage; then the theme lasts as long as the page.
 function storedTheme() {
@@ -15,9 +15,12 @@ function setTheme(theme) {
   if (theme === 'automatic') delete document.documentElement.dataset.theme;
   else document.documentElement.dataset.theme = theme;
   for (const button of document.querySelectorAll('[data-theme-button]')) {
-    button.textContent = kThemes[theme];
+    const [sign, word] = kThemes[theme];
+    const picture = element('span', '', sign);
+    picture.setAttribute('aria-hidden', 'true');
+    button.replaceChildren(picture, ` ${word}`);
     button.title = 'Theme; press for the next one';
-    button.setAttribute('aria-label', `Theme: ${theme}`);
+    button.setAttribute('aria-label', `Theme: ${word}`);
     button.dataset.themeButton = theme;
   }
   try {
