@@ -5,7 +5,7 @@ const kRowsBeyondSight = 8;
 const kWordOrder = new Intl.Collator('en', {numeric: true, sensitivity: 'base'});
 
 const kLookWidth = 150;
-const kLeastNameWidth = 200;
+const kLeastNameWidth = 230;
 
 const kNameColumn = {name: 'name', title: 'Panorama', text: true, value: p => `${p.name} ${p.variant}`};
 
@@ -102,6 +102,7 @@ class List {
     this.body.addEventListener('keydown', event => this.onRowKey(event));
     this.more.addEventListener('click', () => window.scrollBy(document.documentElement.clientWidth / 2, 0));
     window.addEventListener('scroll', () => this.render(), {passive: true});
+    new ResizeObserver(() => this.tellMore()).observe(document.body);
     window.addEventListener('resize', () => { this.measure(); this.render(); });
   }
 
@@ -167,17 +168,16 @@ class List {
     const edge = document.documentElement.clientWidth;
     const count = this.headings.filter(heading => heading.getBoundingClientRect().right > edge + 1).length;
     this.more.hidden = this.edge.hidden = count === 0;
+    this.more.textContent = `${count} more figure${count === 1 ? '' : 's'} →`;
+    this.table.classList.toggle('scrolled', window.scrollX > kLookWidth);
     const {top, bottom} = this.table.getBoundingClientRect();
     this.edge.style.top = `${Math.max(0, top)}px`;
     this.edge.style.bottom = `${Math.max(0, window.innerHeight - bottom)}px`;
-    this.table.classList.toggle('scrolled', window.scrollX > kLookWidth);
-    this.more.textContent = `${count} more figure${count === 1 ? '' : 's'} →`;
   }
 
   // Puts the rows in sight into the document, with gaps for the others.
   render() {
-    this.tellMore();
-    if (this.table.closest('[hidden]')) return;
+    if (this.table.closest('[hidden]')) return this.tellMore();
     const top = this.body.getBoundingClientRect().top;
     const first = Math.max(0, Math.floor(-top / kRowHeight) - kRowsBeyondSight);
     const last = Math.min(this.order.length, Math.ceil((window.innerHeight - top) / kRowHeight) + kRowsBeyondSight);
@@ -195,6 +195,7 @@ class List {
     this.made = made;
     const gaps = [first, this.order.length - Math.max(first, last)].map(count => this.makeGap(count));
     this.body.replaceChildren(gaps[0], ...rows, gaps[1]);
+    this.tellMore();
     if (focused && focused.isConnected) focused.focus({preventScroll: true});
   }
 
@@ -247,7 +248,12 @@ class List {
     const tags = element('div', 'row-tags');
     if (panorama.variant) tags.append(element('span', '', panorama.variant));
     tags.append(...panorama.tags.map(tag => element('span', 'tag', tag)));
-    if (panorama.warnings.length) tags.append(element('span', 'bad', '⚠ ' + panorama.warnings[0]));
+    if (panorama.warnings.length) {
+      const mark = element('span', 'bad', `⚠ ${panorama.warnings.length}`);
+      mark.title = panorama.warnings.join('\n');
+      mark.setAttribute('aria-hidden', 'true');  // a column tells it, too
+      tags.prepend(mark);
+    }
     return tags.childElementCount ? [name, tags] : [name];
   }
 

@@ -50,7 +50,7 @@ class Report {
     const parts = [`${count} panorama${panoramas.length === 1 ? '' : 's'}`];
     if (failed.length) parts.push(`${failed.length} failed`);
     parts.push(`frame ${frame.text}`);
-    byId('summary').textContent = parts.join(' · ');
+    byId('summary').replaceChildren(...parts.flatMap((part, i) => [i ? ' · ' : '', element('span', '', part)]));
     this.title = document.title;
   }
 
