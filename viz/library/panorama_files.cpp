@@ -83,7 +83,7 @@ Status project_batch(const fs::path& shoal, std::span<const std::string> files,
   for (const std::string& file : files) {
     const auto coefficients = found.find(file);
     if (coefficients == found.end()) {
-      library.failed.push_back({names.at(file), failure_of(finished.err, file)});
+      library.failed.push_back({names.at(file), failure_of(finished.err, file), file});
       continue;
     }
     Panorama panorama;

@@ -59,7 +59,11 @@ Result<Pixels> take_line(const std::string& line, const fs::path& file) {
       !said.isObject()) {
     return no_picture(file, "`shoal preview` said nothing of it");
   }
-  if (said.isMember("error")) return no_picture(file, said["error"].asString());
+  if (said.isMember("error")) {
+    const std::string why = said["error"].asString();
+    const std::string named = file.string() + ": ";
+    return no_picture(file, why.starts_with(named) ? why.substr(named.size()) : why);
+  }
   return read_exr(said["output"].asString());
 }
 

@@ -59,6 +59,7 @@ TEST_F(LibraryTest, OfAStoreHasAllThatTheStoreKnows) {
   ASSERT_EQ(library.failed.size(), 1U);
   EXPECT_EQ(library.failed[0].name, "bad");
   EXPECT_THAT(library.failed[0].error, HasSubstr("bad.hdr"));
+  EXPECT_EQ(library.failed[0].file.filename(), "bad.hdr");
 }
 
 // Numbers of a table read back as the same doubles, so the store's and the table's are one.
@@ -199,6 +200,7 @@ TEST_F(LibraryTest, OfAFolderHasItsPanoramas) {
   ASSERT_EQ(library->failed.size(), 1U);
   EXPECT_EQ(library->failed[0].name, "bad");
   EXPECT_THAT(library->failed[0].error, HasSubstr("bad.hdr: "));
+  EXPECT_EQ(library->failed[0].file.filename(), "bad.hdr");
 }
 
 TEST(FindPanoramas, GoesByNamesAndVariants) {

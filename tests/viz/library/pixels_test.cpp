@@ -58,7 +58,9 @@ TEST_F(LibraryTest, CachesPixels) {
   EXPECT_EQ(&cache.get(1, 8), &pixels);
   EXPECT_FALSE(cache.get(1, 8).empty());
   EXPECT_TRUE(cache.get(2, 8).empty());
-  EXPECT_THAT(cache.why_empty(2), HasSubstr("nowhere.exr"));
+  const std::string why = cache.why_empty(2);
+  EXPECT_THAT(why, HasSubstr("nowhere.exr"));
+  EXPECT_EQ(why.find("nowhere.exr"), why.rfind("nowhere.exr")) << why;
   EXPECT_TRUE(cache.get(3, 8).empty());
   EXPECT_THAT(cache.why_empty(3), HasSubstr("has no picture"));
   EXPECT_EQ(cache.why_empty(1), "");

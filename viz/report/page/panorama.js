@@ -50,8 +50,9 @@ function chosen(group) {
   return document.querySelector(`input[name="${group}"]:checked`).value;
 }
 
+// A text that begins with a word, not with a file's name, begins with a capital.
 function sentence(text) {
-  return text && text[0].toUpperCase() + text.slice(1);
+  return /^[a-z]+ /.test(text) ? text[0].toUpperCase() + text.slice(1) : text;
 }
 
 // Figures of the panel, by their names.
