@@ -80,7 +80,7 @@ std::string entry_data(const IndexEntry& entry, const Frame& frame) {
   return fmt::format(
       R"({{"name":{},"variant":{},"file":{},"quantity":{},"degree":{},"changed":{},"tags":{},)"
       R"("warnings":{},"thumbnail":{},"ball":{},"exposure":{},"figures":{},"pixels":{}}})",
-      script_quoted(panorama.name), script_quoted(panorama.variant),
+      script_quoted(entry.name), script_quoted(panorama.variant),
       script_quoted(panorama.file.filename().string()), script_quoted(name_of(panorama.quantity)),
       panorama.coefficients.degree, panorama.changed, strings(panorama.tags),
       strings(entry.warnings), script_quoted(entry.thumbnail), entry.ball,

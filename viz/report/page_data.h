@@ -15,6 +15,7 @@ namespace shoal::viz {
 // One row of the page's table.
 struct IndexEntry {
   const Panorama* panorama = nullptr;
+  std::string name;  // the panorama's, without a folder that all share
   LightFigures figures;
   double exposure = 1.0;  // automatic_exposure
   std::string thumbnail;  // a path beside the page or a data: URL; empty where there is none

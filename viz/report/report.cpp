@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -74,12 +75,29 @@ void remove_stale(const fs::path& folder, const std::set<fs::path>& kept,
 
 // A page may go to other machines, and these need not know how this one's folders are called.
 std::string without_folder(std::string text, const fs::path& file) {
+  if (!file.is_absolute() || file.parent_path() == file.root_path()) return text;
   const std::string folder = (file.parent_path() / "").string();
-  if (!file.is_absolute()) return text;
   for (std::size_t at = 0; (at = text.find(folder, at)) != std::string::npos;) {
     text.erase(at, folder.size());
   }
   return text;
+}
+
+// What all names that are absolute paths begin with, as those of files called alike do.
+std::string folder_of_names(const Library& library) {
+  std::optional<fs::path> common;
+  const auto take = [&](const fs::path& name) {
+    if (!name.is_absolute()) return;
+    const fs::path folder = name.parent_path();
+    if (!common) common = folder;
+    const auto end = std::ranges::mismatch(*common, folder).in1;
+    fs::path shared;
+    for (auto part = common->begin(); part != end; ++part) shared /= *part;
+    common = shared;
+  };
+  for (const Panorama& panorama : library.panoramas) take(panorama.name);
+  for (const FailedPanorama& failed : library.failed) take(failed.name);
+  return common ? (*common / "").string() : "";
 }
 
 // The light's own, but where the pixels are those before a variant or its entry changed them.
@@ -95,16 +113,19 @@ class ReportWriter {
  public:
   ReportWriter(const Library& library, const PictureSource& pictures,
                const ReportSettings& settings)
-      : library_(library), pictures_(pictures), settings_(settings) {
+      : library_(library),
+        pictures_(pictures),
+        settings_(settings),
+        names_begin_(folder_of_names(library)) {
     for (const FailedPanorama& failed : library.failed) {
-      failed_.push_back({failed.name, without_folder(failed.error, failed.file)});
+      failed_.push_back({shown_name(failed.name), without_folder(failed.error, failed.file)});
     }
     for (std::size_t i = 0; i < library.panoramas.size(); ++i) {
       const Panorama& panorama = library.panoramas[i];
       if (all_finite(panorama.coefficients)) {
         shown_.push_back(i);
       } else {
-        failed_.push_back({panorama.name, "its coefficients are not all finite"});
+        failed_.push_back({shown_name(panorama.name), "its coefficients are not all finite"});
       }
     }
   }
@@ -126,14 +147,22 @@ class ReportWriter {
   }
 
  private:
+  [[nodiscard]] std::string shown_name(const std::string& name) const {
+    return name.starts_with(names_begin_) ? name.substr(names_begin_.size()) : name;
+  }
+
   Status add(std::size_t index) {
     const Panorama& panorama = library_.panoramas[index];
     const Coefficients radiance = radiance_of(panorama);
     const Pixels& pixels = pictures_.get(index, settings_.thumbnail_width);
     std::string note;
     if (pixels.empty()) note = without_folder(pictures_.why_empty(index), panorama.file);
-    IndexEntry entry{&panorama, light_figures(panorama),   automatic_exposure(radiance),
-                     "",        irradiance_ball(radiance), {}};
+    IndexEntry entry;
+    entry.panorama = &panorama;
+    entry.name = shown_name(panorama.name);
+    entry.figures = light_figures(panorama);
+    entry.exposure = automatic_exposure(radiance);
+    entry.ball = irradiance_ball(radiance);
     for (const std::string& warning : panorama.warnings) {
       entry.warnings.push_back(without_folder(warning, panorama.file));
     }
@@ -186,6 +215,7 @@ class ReportWriter {
   const Library& library_;
   const PictureSource& pictures_;
   const ReportSettings& settings_;
+  const std::string names_begin_;
   std::vector<std::size_t> shown_;  // panoramas of the library, in its order
   std::vector<FailedPanorama> failed_;
   std::vector<IndexEntry> entries_;  // of shown_

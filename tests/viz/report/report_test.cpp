@@ -304,6 +304,20 @@ TEST(WriteReport, TellsNoFolderOfTheMachine) {
   EXPECT_THAT(content_of(folder / "index.html"), HasSubstr("cut.hdr: ends after row 3"));
 }
 
+// Files called alike are told apart by their paths, which begin where these differ.
+TEST(WriteReport, ShortensNamesThatArePaths) {
+  Library library = test::made_library(3, 2);
+  library.panoramas[0].name = "/home/some body/day/sky.hdr";
+  library.panoramas[1].name = "/home/some body/daylight/sky.hdr";
+  library.failed = {{"/home/some body/cut.hdr", "ends after row 3"}};
+  const shoal::test::TemporaryFolder folder;
+  ASSERT_TRUE(write_made(library, folder.path()));
+  const std::string page = content_of(folder / "index.html");
+  for (const char* name : {"day/sky.hdr", "daylight/sky.hdr", "sky_0002", "cut.hdr"}) {
+    EXPECT_THAT(page, HasSubstr("\"name\":\"" + std::string(name) + "\"")) << name;
+  }
+}
+
 TEST(WriteReport, ListsCoefficientsThatAreNotFiniteAmongTheFailed) {
   Library library = test::made_library(3, 2);
   library.panoramas[1].coefficients.channels[0][3] = NAN;
