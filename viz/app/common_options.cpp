@@ -84,6 +84,10 @@ Result<Library> load(const LibraryOptions& options) {
   const std::vector<std::filesystem::path> sources(options.sources.begin(), options.sources.end());
   SHOAL_ASSIGN_OR_RETURN(library, load_library(sources, settings));
   print_failed(library);
+  if (options.degree) {
+    print_lesser_degrees(part_of(library, find_panoramas(library, options.panorama)),
+                         *options.degree);
+  }
   if (!library.panoramas.empty()) return library;
   return Error{ErrorCode::not_found, "there is no panorama to look at", options.sources.front(),
                library.failed.empty() ? "run `shoal run MANIFEST` first" : "all of them failed"};

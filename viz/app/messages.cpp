@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
 
@@ -33,6 +34,21 @@ void print_failed(const Library& library) {
     print_message(Style::yellow,
                   "warning:", fmt::format("and {} more", library.failed.size() - kMaxFailed));
   }
+}
+
+void print_lesser_degrees(const Library& library, int degree) {
+  const auto is_lesser = [&](const Panorama& panorama) {
+    return panorama.coefficients.degree < degree;
+  };
+  const auto count = std::ranges::count_if(library.panoramas, is_lesser);
+  if (count == 0) return;
+  const Panorama& first = *std::ranges::find_if(library.panoramas, is_lesser);
+  const std::string who =
+      count == 1 ? fmt::format("{} ends at degree {}", full_name(first), first.coefficients.degree)
+                 : fmt::format("{} panoramas end before it, such as {} at {}", count,
+                               full_name(first), first.coefficients.degree);
+  print_message(Style::yellow, "warning:",
+                fmt::format("--degree {}: {}; all that there is is shown", degree, who));
 }
 
 Progress::Progress(std::string_view what)

@@ -80,6 +80,14 @@ class Rendering(Commands):
         self.assertEqual(self.render(0, "--scene", "basis", "--degree", "1", "-o", "b.png").out, "b.png\n")
         self.assertIn("OUT is missing", self.render(2, "-o", "b.png").err)
 
+    def test_less_than_the_degree_asked_for_is_told(self):
+        self.make_output()
+        self.assertEqual(self.render(0, "out", "--panorama", "p00", "--degree", "2", "-o", "a.png").err, "")
+        done = self.render(0, "out", "--panorama", "p00", "--degree", "3", "-o", "a.png")
+        self.assertEqual(done.err, "warning: --degree 3: p00 ends at degree 2; all that there is is shown\n")
+        done = self.render(0, "out", "--degree", "3", "-o", "all/")
+        self.assertIn("3 panoramas end before it, such as p00 at 2", done.err)
+
     def test_what_cannot_be_shown_is_told(self):
         self.make_library(1)
         self.write("lib/bad.hdr", "no picture")
