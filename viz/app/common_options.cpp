@@ -120,7 +120,9 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
       .add_option("--exposure", options.exposure_stops, "Stops on top of the automatic exposure")
       ->check(CLI::Range(-kMaxStops, kMaxStops));
   command.add_option("--size", options.size, "Width and height in pixels, 1280x720 by default");
-  command.add_option("--grid", options.grid, "Columns and rows of a contact sheet, 5x4 by default");
+  command.add_option("--grid", options.grid,
+                     "Columns and rows of a contact sheet's page, such as 5x4; by default those "
+                     "that suit the library, 20 panoramas a page at most");
   command.add_option("--with", options.with,
                      "compare: the panorama or NAME.VARIANT to compare with");
 }
@@ -139,7 +141,6 @@ Result<SceneChoice> understand(const SceneOptions& options, const std::optional<
   SHOAL_ASSIGN_OR_RETURN(scene, parse_scene(options.scene));
   SHOAL_ASSIGN_OR_RETURN(quantity, parse_quantity(options.quantity));
   SHOAL_ASSIGN_OR_RETURN(size, parse_pair("--size", options.size, kMinSide, kMaxSide));
-  SHOAL_ASSIGN_OR_RETURN(grid, parse_pair("--grid", options.grid, 1, kMaxGrid));
   choice.scene = scene;
   choice.size = {size.first, size.second};
   SceneSettings& settings = choice.settings;
@@ -152,8 +153,10 @@ Result<SceneChoice> understand(const SceneOptions& options, const std::optional<
   settings.channel = channel_of(options.channel);
   settings.colour = options.colour == "light" ? LobeColour::light : LobeColour::sign;
   settings.exposure_stops = options.exposure_stops;
-  settings.columns = grid.first;
-  settings.rows = grid.second;
+  if (!options.grid.empty()) {
+    SHOAL_ASSIGN_OR_RETURN(grid, parse_pair("--grid", options.grid, 1, kMaxGrid));
+    settings.grid = Grid{grid.first, grid.second};
+  }
   return choice;
 }
 

@@ -45,7 +45,7 @@ struct SceneOptions {
   std::string colour = "sign";
   double exposure_stops = 0.0;
   std::string size = "1280x720";
-  std::string grid = "5x4";
+  std::string grid;
   std::string with;
 };
 

@@ -22,7 +22,6 @@ Library hann_windowed(const Library& library, std::span<const std::size_t> panor
     Panorama& panorama = windowed.panoramas[index];
     panorama = library.panoramas[index];
     panorama.variant += panorama.variant.empty() ? "Hann window" : ", Hann window";
-    panorama.changed = true;
     panorama.coefficients = hann_windowed(std::move(panorama.coefficients), degree);
   }
   return windowed;

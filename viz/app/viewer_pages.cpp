@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
-#include <sstream>
-#include <vector>
 
 #include "app/viewer_state.h"
 
@@ -12,23 +10,6 @@ namespace shoal::viz {
 namespace {
 
 constexpr double kLeading = 1.12;  // of lines of the card, in lines of type
-
-// As many words a line as have room.
-std::vector<std::string> wrapped(const std::string& text, TextSize size, double width,
-                                 const Stage& stage) {
-  std::vector<std::string> lines(1);
-  std::istringstream words(text);
-  for (std::string word; words >> word;) {
-    std::string& line = lines.back();
-    const std::string longer = line.empty() ? word : line + " " + word;
-    if (line.empty() || stage.text_width(longer, size) <= width) {
-      line = longer;
-    } else {
-      lines.push_back(word);
-    }
-  }
-  return lines;
-}
 
 }  // namespace
 
@@ -71,7 +52,7 @@ void show_failure(const std::string& title, const std::string& subject, const Er
   stage.add_text(body.center_x(), y, "this scene cannot be shown",
                  {.size = TextSize::heading, .colour = theme::kAccent, .align = TextAlign::center});
   y -= 0.4 * line;
-  for (const std::string& text : wrapped(error.text(), TextSize::label, width, stage)) {
+  for (const std::string& text : stage.wrapped(error.text(), TextSize::label, width)) {
     y -= line;
     stage.add_text(body.center_x(), y, text,
                    {.align = TextAlign::center, .max_width = body.width()});

@@ -27,8 +27,7 @@ KeyEffect step(const Library& library, int by, ViewerState& state) {
 
 KeyEffect choose_scene(SceneKind scene, ViewerState& state) {
   if (scene == SceneKind::contact && state.scene != scene) {
-    const int cells = state.settings.columns * state.settings.rows;
-    state.settings.page = static_cast<int>(state.panorama) / cells;
+    state.settings.page = static_cast<int>(state.panorama) / contact_cell_count(state.settings);
   }
   state.scene = scene;
   return KeyEffect::show;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "library/light_change.h"
 #include "sphere/coefficients.h"
 #include "sphere/frame.h"
 #include "sphere/irradiance.h"
@@ -48,12 +49,15 @@ struct Panorama {
   std::string variant;         // empty: as it was projected
   std::filesystem::path file;  // where its pixels are, the painted ones of an entry without a file;
                                // empty where nobody says
+  std::string recipe;          // what they can be painted of where there is no file: an entry of a
+                               // manifest, less its braces and name; empty where they cannot
   Quantity quantity = Quantity::radiance;
   Coefficients coefficients;  // of `quantity`, native frame, linear Rec.709
   std::optional<PixelFigures> pixels;
   std::optional<QualityFigures> quality;  // what the store has
-  bool changed = false;  // the coefficients are not those of the pixels: a variant's, or the entry
-                         // has an exposure, a rotation, lights
+  // What a variant, or the entry's exposure, rotation and so on, makes of the pixels' light.
+  // Nothing where nobody can tell: lights were added, a part was taken out.
+  std::optional<LightChange> change = LightChange{};
   std::vector<std::string> tags;
   std::vector<std::string> warnings;
 };

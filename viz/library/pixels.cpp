@@ -1,17 +1,16 @@
 #include "library/pixels.h"
 
-#include <ImfFrameBuffer.h>
-#include <ImfHeader.h>
-#include <ImfInputFile.h>
 #include <fmt/format.h>
 #include <json/json.h>
 
 #include <algorithm>
-#include <exception>
 #include <memory>
 #include <sstream>
 #include <utility>
 
+#include "library/changed_pixels.h"
+#include "library/exr_pixels.h"
+#include "library/painted_pixels.h"
 #include "library/program.h"
 #include "library/temporary_folder.h"
 
@@ -26,28 +25,6 @@ constexpr std::ptrdiff_t kReadAhead = 32;  // less than is kept
 
 Error no_picture(const fs::path& file, const std::string& why) {
   return Error{ErrorCode::unreadable, why, file.string(), ""};
-}
-
-Result<Pixels> read_exr(const fs::path& path) {
-  try {
-    Imf::InputFile file(path.c_str(), 1);
-    const Imath::Box2i window = file.header().dataWindow();
-    Pixels pixels;
-    pixels.width = window.max.x - window.min.x + 1;
-    pixels.height = window.max.y - window.min.y + 1;
-    pixels.rgb.resize(std::size_t{3} * pixels.width * pixels.height);
-    Imf::FrameBuffer frame;
-    const std::size_t texel = 3 * sizeof(float);
-    for (int c = 0; c < 3; ++c) {
-      frame.insert(std::string(1, "RGB"[c]), Imf::Slice::Make(Imf::FLOAT, pixels.rgb.data() + c,
-                                                              window, texel, texel * pixels.width));
-    }
-    file.setFrameBuffer(frame);
-    file.readPixels(window.min.y, window.max.y);
-    return pixels;
-  } catch (const std::exception& exception) {
-    return no_picture(path, exception.what());
-  }
 }
 
 // What `shoal preview` says of one file: a line of JSON.
@@ -105,43 +82,66 @@ std::vector<Result<Pixels>> load_previews(const std::vector<fs::path>& files, in
 void PixelCache::expect(std::vector<std::size_t> panoramas) { expected_ = std::move(panoramas); }
 
 void PixelCache::prepare(std::span<const std::size_t> panoramas, int width) {
-  // Variants share their panorama's file.
-  std::map<fs::path, std::vector<std::size_t>> wanted;
+  // Variants share their panorama's file or recipe.
+  std::map<std::string, std::vector<std::size_t>> files;
+  std::map<std::string, std::vector<std::size_t>> recipes;
   for (const std::size_t panorama : panoramas) {
-    if (const auto known = entries_.find({panorama, width}); known != entries_.end()) {
+    if (const auto known = entries_.find({panorama, width, Lying::as_in_file});
+        known != entries_.end()) {
       known->second.last_use = ++use_count_;
       continue;
     }
-    const fs::path& file = library_.panoramas[panorama].file;
-    if (!file.empty()) {
-      wanted[file].push_back(panorama);
-      continue;
-    }
-    failures_[panorama] =
-        "it has no picture (skies and lights have one with picture: {} in the manifest)";
-    keep(panorama, width, {});
-  }
-  if (wanted.empty()) return;
-  std::vector<fs::path> files;
-  for (const auto& [file, users] : wanted) files.push_back(file);
-  const std::vector<Result<Pixels>> previews = load_previews(files, width);
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    for (const std::size_t panorama : wanted[files[i]]) {
-      if (!previews[i]) failures_[panorama] = previews[i].error().text();
-      keep(panorama, width, previews[i] ? *previews[i] : Pixels());
+    const Panorama& wanted = library_.panoramas[panorama];
+    if (!wanted.file.empty()) {
+      files[wanted.file.string()].push_back(panorama);
+    } else if (!wanted.recipe.empty()) {
+      recipes[wanted.recipe].push_back(panorama);
+    } else {
+      failures_[panorama] = "it is known by its coefficients alone";
+      keep({panorama, width, Lying::as_in_file}, {});
     }
   }
+  if (files.empty() && recipes.empty()) return;
+  take(files, width, [](const std::vector<std::string>& texts, int size) {
+    return load_previews({texts.begin(), texts.end()}, size);
+  });
+  take(recipes, width, paint);
   make_room(std::max(kKeptEntries, panoramas.size()));
 }
 
-const Pixels& PixelCache::get(std::size_t panorama, int width) {
-  if (!entries_.contains({panorama, width})) {
+void PixelCache::take(const std::map<std::string, std::vector<std::size_t>>& users, int width,
+                      const Load& load) {
+  if (users.empty()) return;
+  std::vector<std::string> sources;
+  for (const auto& [source, panoramas] : users) sources.push_back(source);
+  const std::vector<Result<Pixels>> loaded = load(sources, width);
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    for (const std::size_t panorama : users.at(sources[i])) {
+      if (!loaded[i]) failures_[panorama] = loaded[i].error().text();
+      Pixels pixels = loaded[i] ? *loaded[i] : Pixels();
+      const auto& change = library_.panoramas[panorama].change;
+      if (change && change->colour != glm::dmat3(1.0)) apply_colour(change->colour, pixels);
+      keep({panorama, width, Lying::as_in_file}, std::move(pixels));
+    }
+  }
+}
+
+const Pixels& PixelCache::get(std::size_t panorama, int width, Lying lying) {
+  const Key in_file{panorama, width, Lying::as_in_file};
+  if (!entries_.contains(in_file)) {
     const auto expected = std::ranges::find(expected_, panorama);
     const auto ahead = std::min<std::ptrdiff_t>(kReadAhead, expected_.end() - expected);
     const std::vector<std::size_t> together(expected, expected + ahead);
     prepare(together.empty() ? std::span(&panorama, 1) : std::span(together), width);
   }
-  Entry& entry = entries_[{panorama, width}];
+  const auto& change = library_.panoramas[panorama].change;
+  const bool turns = lying == Lying::turned && change && change->turn != glm::dmat3(1.0);
+  const Key key{panorama, width, turns ? Lying::turned : Lying::as_in_file};
+  if (turns && !entries_.contains(key)) {
+    const Pixels& pixels = entries_[in_file].pixels;
+    keep(key, pixels.empty() ? Pixels() : turned(pixels, change->turn));
+  }
+  Entry& entry = entries_[key];
   entry.last_use = ++use_count_;
   return entry.pixels;
 }
@@ -151,9 +151,9 @@ std::string PixelCache::why_empty(std::size_t panorama) const {
   return failure == failures_.end() ? "" : failure->second;
 }
 
-void PixelCache::keep(std::size_t panorama, int width, Pixels pixels) {
+void PixelCache::keep(const Key& key, Pixels pixels) {
   byte_count_ += pixels.rgb.size() * sizeof(float);
-  entries_[{panorama, width}] = {std::move(pixels), ++use_count_};
+  entries_[key] = {std::move(pixels), ++use_count_};
 }
 
 // Lets go of what was not asked for the longest, but not of the last `kept`.

@@ -4,10 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <span>
 #include <string>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "core/result.h"
@@ -34,6 +35,10 @@ struct Pixels {
 [[nodiscard]] std::vector<Result<Pixels>> load_previews(
     const std::vector<std::filesystem::path>& files, int width);
 
+// Which way pixels lie: turned as the light is, to be looked at, or as in the file, exact texels
+// for who turns what he does with them.
+enum class Lying { turned, as_in_file };
+
 // Previews of a library's panoramas, loaded when they are first asked for. The last 64 that were
 // asked for are kept, and others while there is room (256 MiB).
 class PixelCache {
@@ -47,19 +52,23 @@ class PixelCache {
   // Loads at once what is not there yet of these panoramas, and keeps all of them.
   void prepare(std::span<const std::size_t> panoramas, int width);
 
-  // Empty where the panorama has no file, or one that cannot be read (why_empty says so). The
+  // The panorama's light: Panorama::change is applied where it is known, else these are the pixels
+  // of the file. Empty where there is no file, or one that cannot be read (why_empty says so). The
   // reference lives until 64 others have been asked for.
-  [[nodiscard]] const Pixels& get(std::size_t panorama, int width);
+  [[nodiscard]] const Pixels& get(std::size_t panorama, int width, Lying lying = Lying::turned);
   [[nodiscard]] std::string why_empty(std::size_t panorama) const;
 
  private:
-  using Key = std::pair<std::size_t, int>;  // panorama, width
+  using Key = std::tuple<std::size_t, int, Lying>;  // panorama, width
+  using Load = std::function<std::vector<Result<Pixels>>(const std::vector<std::string>&, int)>;
   struct Entry {
     Pixels pixels;
     std::int64_t last_use = 0;
   };
 
-  void keep(std::size_t panorama, int width, Pixels pixels);
+  void take(const std::map<std::string, std::vector<std::size_t>>& users, int width,
+            const Load& load);
+  void keep(const Key& key, Pixels pixels);
   void make_room(std::size_t kept);
 
   const Library& library_;

@@ -16,6 +16,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "library/painted_pixels.h"
 #include "library/table_library.h"
 #include "sphere/rotation.h"
 
@@ -34,7 +35,7 @@ constexpr const char* kSelectItems =
     "SELECT name, status, error, input_path, format, width, height, pixel_count, nonfinite_count,"
     " negative_count, clamped_count, minimum_r, minimum_g, minimum_b, maximum_r, maximum_g,"
     " maximum_b, mean_r, mean_g, mean_b, warnings, degree, radiance,"
-    " (SELECT path FROM outputs WHERE outputs.item = id AND kind = 'picture')"
+    " (SELECT path FROM outputs WHERE outputs.item = id AND kind = 'picture'), parameters"
     " FROM items LEFT JOIN projections ON projections.item = id ORDER BY name";
 
 constexpr const char* kSelectQuality =
@@ -180,6 +181,7 @@ Status take_item(const Row& row, const std::filesystem::path& folder, Library& l
   Panorama panorama;
   panorama.name = name;
   panorama.file = pixels_of(row, folder);
+  if (panorama.file.empty()) panorama.recipe = recipe_of(row.text(24));
   SHOAL_ASSIGN_OR_RETURN(radiance, radiance_from(row, name));
   panorama.coefficients = std::move(radiance);
   const bool has_pixels = row.integer(7) > 0;  // lights alone have none
@@ -274,9 +276,10 @@ bool tells_other_light(const Panorama& told, const Panorama& projected) {
 
 // The light that the manifest asked for, in place of the one that the pixels hold.
 void take_light(Panorama& told, Panorama& panorama) {
+  panorama.change =
+      find_light_change(apply_quantity(panorama.coefficients, told.quantity), told.coefficients);
   panorama.quantity = told.quantity;
   panorama.coefficients = std::move(told.coefficients);
-  panorama.changed = true;
 }
 
 // What the store says of a panorama holds for its variants, but for the coefficients.
@@ -288,14 +291,15 @@ void add_variants(std::vector<Panorama> table, Library& library) {
   // (position in the table, panorama): each panorama stands before its variants.
   constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
   std::vector<std::size_t> positions(library.panoramas.size(), kNowhere);
+  std::vector<std::pair<std::size_t, std::size_t>> plain;  // the same, of other light
   for (std::size_t i = 0; i < table.size(); ++i) {
     const auto found = stored.find(table[i].name);
     if (found == stored.end()) continue;
     std::size_t& position = positions[found->second];
     position = std::min(position, i);
-    Panorama& own = library.panoramas[found->second];
+    const Panorama& own = library.panoramas[found->second];
     if (table[i].variant.empty()) {
-      if (tells_other_light(table[i], own)) take_light(table[i], own);
+      if (tells_other_light(table[i], own)) plain.emplace_back(i, found->second);
       continue;
     }
     Panorama variant = own;
@@ -304,6 +308,8 @@ void add_variants(std::vector<Panorama> table, Library& library) {
     library.panoramas.push_back(std::move(variant));
     positions.push_back(i);
   }
+  // Not before: a variant's light is told of what the pixels were projected to.
+  for (const auto& [told, own] : plain) take_light(table[told], library.panoramas[own]);
   std::vector<std::size_t> order(positions.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return positions[i]; });

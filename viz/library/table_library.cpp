@@ -134,7 +134,7 @@ std::vector<Panorama> panoramas_of(std::vector<CoefficientRecord> records) {
       Panorama& panorama = panoramas.emplace_back();
       panorama.name = record.panorama;
       panorama.variant = record.variant;
-      panorama.changed = !record.variant.empty();
+      if (!record.variant.empty()) panorama.change.reset();  // a table does not say from what
       std::error_code code;
       if (std::filesystem::is_regular_file(record.panorama, code)) panorama.file = record.panorama;
     }

@@ -19,6 +19,7 @@
 #include <numbers>
 #include <vector>
 
+#include "scenes/hidden_labels.h"
 #include "scenes/type.h"
 #include "scenes/vtk_data.h"
 
@@ -152,7 +153,8 @@ void add_arrow(vtkRenderer& view, const glm::vec3& from, const glm::vec3& to,
 }
 
 void add_label(Stage& stage, vtkRenderer& view, const glm::vec3& point, const std::string& text,
-               TextSize size, const glm::vec3& colour, LabelDepth depth) {
+               TextSize size, const glm::vec3& colour,
+               const std::shared_ptr<const Mesh>& hidden_by) {
   vtkNew<vtkBillboardTextActor3D> actor;
   actor->SetInput(text.c_str());
   actor->SetPosition(point.x, point.y, point.z);
@@ -162,9 +164,15 @@ void add_label(Stage& stage, vtkRenderer& view, const glm::vec3& point, const st
   property.SetColor(colour.r, colour.g, colour.b);
   property.SetJustificationToCentered();
   property.SetVerticalJustificationToCentered();
-  property.SetShadow(depth == LabelDepth::among);  // readable on whatever it stands before
-  vtkRenderer& layer = depth == LabelDepth::among ? view : stage.front_of(view);
-  layer.AddActor(actor);
+  if (hidden_by != nullptr) {  // readable on whatever it stands before, and plainly not on it
+    const glm::vec3& ground = theme::kBackground;
+    property.SetBackgroundColor(ground.r, ground.g, ground.b);
+    property.SetBackgroundOpacity(0.7);
+  }
+  stage.front_of(view).AddActor(actor);
+  if (hidden_by == nullptr) return;
+  const double half_width = 0.5 * stage.text_width(text, size) * stage.width();
+  hide_behind(view, *actor, {point, {half_width, 0.35 * stage.text_pixels(size)}, hidden_by});
 }
 
 glm::vec3 viewer_direction(const Frame& frame) {

@@ -5,6 +5,7 @@
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <span>
 #include <string>
 
@@ -42,14 +43,11 @@ void add_arrow(vtkRenderer& view, const glm::vec3& from, const glm::vec3& to,
                const glm::vec3& colour, double thickness = 0.02);
 
 // Words that stand at a point and always face the viewer, in front of all else; their middle is at
-// the point.
-enum class LabelDepth {
-  in_front,  // of all shapes
-  among,     // them: what stands before it hides it
-};
+// the point. While the mesh stands before a part of them, as seen by the view's camera, they are
+// not there: on it they would name a place of it.
 void add_label(Stage& stage, vtkRenderer& view, const glm::vec3& point, const std::string& text,
                TextSize size, const glm::vec3& colour = theme::kText,
-               LabelDepth depth = LabelDepth::in_front);
+               const std::shared_ptr<const Mesh>& hidden_by = nullptr);
 
 // From where a scene is first seen: over the shoulder of somebody who looks at the panorama's
 // centre, the frame's up being up, so that a ball of that radius at the target fills the view but

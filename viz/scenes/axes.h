@@ -9,13 +9,18 @@
 
 #include <vtkRenderer.h>
 
+#include <memory>
+
+#include "scenes/mesh.h"
 #include "scenes/stage.h"
 #include "sphere/frame.h"
 
 namespace shoal::viz {
 
-// The three axes through the origin, arrows at their positive ends, labelled "+x", "-x" ...
-void add_axes(Stage& stage, vtkRenderer& view, double length, TextSize size = TextSize::label);
+// The three axes through the origin, arrows at their positive ends, labelled "+x", "-x" ... where
+// the mesh, if any, does not stand before the label.
+void add_axes(Stage& stage, vtkRenderer& view, double length, TextSize size = TextSize::label,
+              const std::shared_ptr<const Mesh>& hidden_by = nullptr);
 
 // The same without words and negative halves, for small views.
 void add_small_axes(vtkRenderer& view, double length);

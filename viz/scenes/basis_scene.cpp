@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <glm/geometric.hpp>
@@ -31,11 +32,14 @@ std::vector<std::vector<double>> sample_basis(const Mesh& sphere, int degree) {
   return samples;
 }
 
-// Where l stands in the pyramid's rows and m in its columns, less the place of the label.
+std::string order_text(int m) { return (m < 0 ? kMinus : "") + std::to_string(std::abs(m)); }
+
+// Where l stands in the pyramid's rows and m in its columns.
 struct Pyramid {
   Rectangle area;
   int degree;
-  double label_height;
+  TextSize size;              // of the labels
+  double label_height = 0.0;  // below each lobe; 0 where there is room along the edges only
 
   [[nodiscard]] Rectangle cell(int l, int m) const {
     return grid_cell(area, 2 * degree + 1, degree + 1, m + degree, l);
@@ -46,6 +50,48 @@ struct Pyramid {
     return place;
   }
 };
+
+// "l, m" below each lobe where that has room in a cell, else l at the left of the rows and m below
+// the columns.
+Pyramid lay_out(const Stage& stage, int degree) {
+  Pyramid pyramid{stage.body(), degree, degree <= 6 ? TextSize::label : TextSize::small};
+  const double line = stage.line_height(pyramid.size);
+  const std::string widest = std::to_string(degree) + ", " + order_text(-degree) + " ";
+  const Rectangle cell = pyramid.cell(degree, 0);
+  if (stage.text_width(widest, pyramid.size) <= cell.width() && 3.0 * line <= cell.height()) {
+    pyramid.label_height = line;
+    return pyramid;
+  }
+  pyramid.area.left += stage.text_width("l = " + std::to_string(degree) + " ", pyramid.size);
+  pyramid.area.bottom += 1.2 * line;
+  return pyramid;
+}
+
+void add_label_below(Stage& stage, const Pyramid& pyramid, int l, int m) {
+  const Rectangle cell = pyramid.cell(l, m);
+  stage.add_text(cell.center_x(), cell.bottom, std::to_string(l) + ", " + order_text(m),
+                 {.size = pyramid.size, .align = TextAlign::center, .max_width = cell.width()});
+}
+
+// As many as do not touch one another; those of 0 are there in any case.
+void add_labels_along_edges(Stage& stage, const Pyramid& pyramid) {
+  const auto step_for = [](double room, double needed) {
+    return std::max(1, static_cast<int>(std::ceil(needed / room)));
+  };
+  const Rectangle cell = pyramid.cell(0, 0);
+  const double line = stage.line_height(pyramid.size);
+  const int row_step = step_for(cell.height(), line);
+  for (int l = 0; l <= pyramid.degree; l += row_step) {
+    stage.add_text(stage.body().left, pyramid.cell(l, 0).center_y() - 0.35 * line,
+                   "l = " + std::to_string(l), {.size = pyramid.size});
+  }
+  const std::string widest = "m = " + order_text(-pyramid.degree) + "  ";
+  const int step = step_for(cell.width(), stage.text_width(widest, pyramid.size));
+  for (int m = -(pyramid.degree / step) * step; m <= pyramid.degree; m += step) {
+    stage.add_text(pyramid.cell(0, m).center_x(), stage.body().bottom, "m = " + order_text(m),
+                   {.size = pyramid.size, .align = TextAlign::center});
+  }
+}
 
 void add_orientation(const SceneInput& input, Stage& stage, const Pyramid& pyramid) {
   // The corner beside the pyramid's top is free from degree 1 on.
@@ -63,10 +109,9 @@ Status show_basis_scene(const SceneInput& input, Stage& stage) {
   stage.set_title("Real spherical harmonics",
                   "Y of degree l \u2264 " + std::to_string(degree) + " and order m = \u2212l to l");
   const LegendEntry entries[] = {{theme::kPositive, "Y > 0"}, {theme::kNegative, "Y < 0"}};
-  set_caption(stage, "radius |Y|, one scale for all; below each: l, m", entries);
+  set_caption(stage, "radius |Y|, one scale for all; rows l, columns m", entries);
 
-  const TextSize size = degree <= 6 ? TextSize::label : TextSize::small;
-  const Pyramid pyramid{stage.body(), degree, stage.line_height(size)};
+  const Pyramid pyramid = lay_out(stage, degree);
   const Mesh sphere = sphere_mesh(degree <= 4 ? 48 : 32);
   const auto samples = sample_basis(sphere, degree);
   // |Y_lm| <= sqrt((2l+1)/(4 pi)), which the zonal one reaches at its pole (addition theorem).
@@ -81,12 +126,10 @@ Status show_basis_scene(const SceneInput& input, Stage& stage) {
       vtkRenderer& view = stage.add_view(pyramid.view(l, m));
       add_mesh(view, lobe, sign_colours(lobe), Shading::lit);
       camera.look(view, input.settings.frame, kClose);
-      const Rectangle cell = pyramid.cell(l, m);
-      stage.add_text(cell.center_x(), cell.bottom,
-                     std::to_string(l) + ", " + (m < 0 ? kMinus : "") + std::to_string(std::abs(m)),
-                     {.size = size, .align = TextAlign::center, .max_width = cell.width()});
+      if (pyramid.label_height > 0.0) add_label_below(stage, pyramid, l, m);
     }
   }
+  if (pyramid.label_height == 0.0) add_labels_along_edges(stage, pyramid);
   if (degree > 0) add_orientation(input, stage, pyramid);
   return {};
 }

@@ -27,49 +27,79 @@ struct Pair {
   Side left;
   Side right;
   double exposure = 1.0;
+  std::string note;  // behind the exposure in the caption
   std::string subject;
   std::string left_noun;  // whose RMS the difference's is told in
 };
 
-// Pixels hold what was before a variant changed it; so two are compared by their coefficients.
-Side side_of(const SceneInput& input, std::size_t index) {
-  const Panorama& panorama = input.library->panoramas[index];
-  const SceneSettings& settings = input.settings;
-  Coefficients light = apply_quantity(radiance_of(panorama), settings.quantity);
-  if (settings.degree) light = truncate(std::move(light), *settings.degree);
+// The panorama's light as the settings want it shown.
+Coefficients light_of(const SceneInput& input, std::size_t index) {
+  const Coefficients light =
+      apply_quantity(radiance_of(input.library->panoramas[index]), input.settings.quantity);
+  return truncate(light, input.settings.degree.value_or(light.degree));
+}
+
+// Pixels may not be of that light, nor of that quantity; so two are compared by their coefficients.
+Side side_of(const Panorama& panorama, const Coefficients& light) {
   return {title_of(panorama) + ", degree " + std::to_string(light.degree),
           synthesise(light, kWidth, kWidth / 2)};
 }
 
-Pair two_panoramas(const SceneInput& input, double exposure) {
-  return {side_of(input, input.current), side_of(input, *input.other), exposure,
-          describe(input.settings.quantity) + " compared", "the left's"};
+// At the exposure that the brighter one has alone, so that neither is burnt out.
+Pair two_panoramas(const SceneInput& input) {
+  const Coefficients left = light_of(input, input.current);
+  const Coefficients right = light_of(input, *input.other);
+  const double stops = input.settings.exposure_stops;
+  const double left_exposure = automatic_exposure(left, stops);
+  const double right_exposure = automatic_exposure(right, stops);
+  return {side_of(current_panorama(input), left),
+          side_of(input.library->panoramas[*input.other], right),
+          std::min(left_exposure, right_exposure),
+          left_exposure <= right_exposure ? ", the left's" : ", the right's",
+          describe(input.settings.quantity) + " compared",
+          "the left's"};
 }
 
-// Error: usage, where there are no pixels.
-Result<Pair> pixels_and_sum(const SceneInput& input, const Coefficients& whole, double exposure) {
+// What is known of light without pixels is its coefficients; so fewer of them are compared with
+// all.
+Result<Pair> more_and_fewer(const SceneInput& input, const Coefficients& whole, double exposure) {
   const Panorama& panorama = current_panorama(input);
-  const Pixels& original = input.pixels->get(input.current, kWidth);
-  if (original.empty()) {
+  const int degree = input.settings.degree.value_or(whole.degree);
+  if (degree >= whole.degree) {
     return Error{ErrorCode::usage,
                  "there are no pixels to compare with: " + input.pixels->why_empty(input.current),
-                 title_of(panorama), "name a second panorama or variant: --with GLOB"};
+                 title_of(panorama),
+                 "name a second panorama or variant, --with GLOB, or a --degree below " +
+                     std::to_string(whole.degree)};
   }
+  const auto side = [&](const std::string& what, const Coefficients& light) {
+    return Side{what + ": radiance to degree " + std::to_string(light.degree),
+                synthesise(light, kWidth, kWidth / 2)};
+  };
+  return Pair{side("all that is known", whole),
+              side("reconstruction", truncate(whole, degree)),
+              exposure,
+              "",
+              "more and fewer coefficients",
+              "the left's"};
+}
+
+// Errors: usage, where there is nothing to compare with.
+Result<Pair> pixels_and_sum(const SceneInput& input) {
+  const Panorama& panorama = current_panorama(input);
+  const Coefficients whole = radiance_of(panorama);
+  const double exposure = automatic_exposure(whole, input.settings.exposure_stops);
+  const Pixels& original = input.pixels->get(input.current, kWidth);
+  if (original.empty()) return more_and_fewer(input, whole, exposure);
   const Coefficients shown = truncate(whole, input.settings.degree.value_or(whole.degree));
   // A small panorama's pixels come as they are, not made larger.
   return Pair{{"panorama: " + describe_pixels(panorama), original},
               {"reconstruction: radiance to degree " + std::to_string(shown.degree),
                synthesise(shown, original.width, original.height)},
               exposure,
+              panorama.change ? "" : "; two lights: the second one is not of these pixels alone",
               "original and reconstruction",
               "the original's"};
-}
-
-Result<Pair> pair_of(const SceneInput& input) {
-  const Coefficients whole = radiance_of(current_panorama(input));
-  const double exposure = automatic_exposure(whole, input.settings.exposure_stops);
-  if (input.other) return two_panoramas(input, exposure);
-  return pixels_and_sum(input, whole, exposure);
 }
 
 // Below a line for its title.
@@ -84,7 +114,7 @@ Rectangle add_side(const std::string& title, const Picture& picture, Stage& stag
   stage.add_picture(place, picture);
   stage.add_outline(place);
   stage.add_text(place.left, place.top + 0.3 * stage.line_height(TextSize::label), title,
-                 {.max_width = place.width()});
+                 {.max_width = place.width(), .cut = TextCut::middle});
   return place;
 }
 
@@ -134,7 +164,8 @@ void add_key(const Pair& pair, const Difference& difference, const std::string& 
 }  // namespace
 
 Status show_compare_scene(const SceneInput& input, Stage& stage) {
-  SHOAL_ASSIGN_OR_RETURN(pair, pair_of(input));
+  auto found = input.other ? Result<Pair>(two_panoramas(input)) : pixels_and_sum(input);
+  SHOAL_ASSIGN_OR_RETURN(pair, std::move(found));
   const std::string channel(name_of(input.settings.channel));
   const Difference difference =
       difference_of(pair.left.light, pair.right.light, input.settings.channel);
@@ -142,21 +173,23 @@ Status show_compare_scene(const SceneInput& input, Stage& stage) {
   stage.set_caption("difference of " + channel + ": RMS " + text_of(difference.rms) + " (" +
                     percent_of(difference.relative_rms) + " of " + pair.left_noun + "), largest " +
                     text_of(difference.largest) + "; one exposure, " +
-                    text_of(std::log2(pair.exposure)) + " stops");
+                    text_of(std::log2(pair.exposure)) + " stops" + pair.note);
   const double gap = 0.01;
-  const auto cell = [&](int column, int row) {
-    return inset(grid_cell(stage.body(), 2, 2, column, row), gap * stage.height() / stage.width(),
-                 gap);
+  const double aspect = stage.aspect(stage.body());
+  const int columns = aspect < 1.0 ? 1 : aspect > 3.5 ? 4 : 2;  // of four cells
+  const auto cell = [&](int place) {
+    return inset(grid_cell(stage.body(), columns, 4 / columns, place % columns, place / columns),
+                 gap * stage.height() / stage.width(), gap);
   };
-  add_side(pair.left.title, tone_mapped_picture(pair.left.light, pair.exposure), stage, cell(0, 0));
-  add_side(pair.right.title, tone_mapped_picture(pair.right.light, pair.exposure), stage,
-           cell(1, 0));
-  const Rectangle below =
-      add_side("right minus left, " + channel, difference_picture(difference, pair.left.light),
-               stage, cell(0, 1));
+  add_side(pair.left.title, tone_mapped_picture(pair.left.light, pair.exposure), stage, cell(0));
+  add_side(pair.right.title, tone_mapped_picture(pair.right.light, pair.exposure), stage, cell(1));
+  const Rectangle below = add_side("right minus left, " + channel,
+                                   difference_picture(difference, pair.left.light), stage, cell(2));
   add_mark(stage, below, middle_of(difference.largest_texel, pair.left.light), 0.011,
            theme::kBackground);
-  add_key(pair, difference, channel, stage, place_of_picture(stage, cell(1, 1)));
+  // A high window's cells are low, and a picture's height would not do for the figures.
+  const Rectangle key = columns == 1 ? cell(3) : place_of_picture(stage, cell(3));
+  add_key(pair, difference, channel, stage, key);
   return {};
 }
 

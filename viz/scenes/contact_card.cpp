@@ -81,4 +81,22 @@ ContactCard lay_out_card(const Stage& stage, const Rectangle& cell) {
           plan.lines};
 }
 
+Grid roomiest_grid(const Stage& stage, const Rectangle& area, int count) {
+  Grid best;
+  double largest = -1.0;
+  for (int columns = 1; columns <= count; ++columns) {
+    const Grid grid{columns, (count + columns - 1) / columns};
+    const ContactCard card = lay_out_card(stage, grid_cell(area, grid.columns, grid.rows, 0, 0));
+    // Ball and lobe are of one size, so that of the thumbnail and theirs tells.
+    const double size = card.thumbnail.width() * card.thumbnail.height() +
+                        2.0 * card.ball.width() * card.ball.height();
+    const bool fewer = grid.columns * grid.rows < best.columns * best.rows;
+    if (size > largest * (1.0 + 1e-9) || (size > largest * (1.0 - 1e-9) && fewer)) {
+      best = grid;
+      largest = size;
+    }
+  }
+  return best;
+}
+
 }  // namespace shoal::viz

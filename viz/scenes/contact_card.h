@@ -1,6 +1,7 @@
 // Where things stand on a card of the contact sheet.
 #pragma once
 
+#include "scenes/scene.h"
 #include "scenes/stage.h"
 
 namespace shoal::viz {
@@ -17,5 +18,9 @@ struct ContactCard {
 // one another beside them; or the three pictures in a row over the words, which are one line where
 // two would take half of the card.
 [[nodiscard]] ContactCard lay_out_card(const Stage& stage, const Rectangle& cell);
+
+// The grid of at least `count` cells over the area whose cards have the largest pictures; of equal
+// ones that with the fewest cells. Precondition: count >= 1.
+[[nodiscard]] Grid roomiest_grid(const Stage& stage, const Rectangle& area, int count);
 
 }  // namespace shoal::viz

@@ -18,16 +18,32 @@
 namespace shoal::viz {
 namespace {
 
-constexpr int kThumbnailWidth = 256;
 constexpr const char* kBetween = " · ";  // figures, on cards and in the caption
 constexpr int kLobeRings = 24;
 constexpr int kBallDegree = 4;  // beyond it the clamped cosine leaves a few thousandths
 
+// In the lower left corner of a picture.
+void add_note(const std::string& text, Stage& stage, const Rectangle& place) {
+  const double line = stage.line_height(TextSize::small);
+  const double pad = 0.3 * line * stage.height() / stage.width();
+  const double width = stage.text_width(text, TextSize::small) + 2.0 * pad;
+  if (width > place.width() || line > place.height()) return;
+  stage.add_box({place.left, place.bottom, place.left + width, place.bottom + line}, theme::kPanel);
+  stage.add_text(place.left + pad, place.bottom + 0.15 * line, text, {.size = TextSize::small});
+}
+
+// Of previews for thumbnails: about as many texels as pixels, of few sizes, which are kept.
+int preview_width(const Stage& stage, const Rectangle& thumbnail) {
+  const double pixels = thumbnail.width() * stage.width();
+  return pixels <= 320.0 ? 256 : pixels <= 640.0 ? 512 : 1024;
+}
+
 void add_thumbnail(const SceneInput& input, std::size_t index, double exposure, Stage& stage,
                    const Rectangle& place) {
-  const Pixels& pixels = input.pixels->get(index, kThumbnailWidth);
+  const Pixels& pixels = input.pixels->get(index, preview_width(stage, place));
   if (!pixels.empty()) {
     stage.add_picture(place, tone_mapped_picture(pixels, exposure));
+    if (!input.library->panoramas[index].change) add_note("other light", stage, place);
     return;
   }
   stage.add_outline(place);
@@ -48,14 +64,15 @@ void add_words(const Panorama& panorama, const Coefficients& radiance, const Con
   TextStyle figures{.size = TextSize::small, .colour = theme::kDimText, .max_width = words.width()};
   if (card.lines == 1) {
     const double used = stage.text_width(mean + "  ", TextSize::small);
-    stage.add_text(words.left, words.top - 0.85 * line, title_of(panorama),
-                   {.size = TextSize::small, .max_width = words.width() - used});
+    stage.add_text(
+        words.left, words.top - 0.85 * line, title_of(panorama),
+        {.size = TextSize::small, .max_width = words.width() - used, .cut = TextCut::middle});
     figures.align = TextAlign::right;
     stage.add_text(words.right, words.top - 0.85 * line, mean, figures);
     return;
   }
   stage.add_text(words.left, words.top - 0.9 * line, title_of(panorama),
-                 {.size = TextSize::small, .max_width = words.width()});
+                 {.size = TextSize::small, .max_width = words.width(), .cut = TextCut::middle});
   const double dominance = std::min(1.0, dominance_of(radiance).value_or(0.0));
   const std::string directed = text_of(std::round(100.0 * dominance)) + " %";
   stage.add_text(words.left, words.top - 1.9 * line, mean + kBetween + directed, figures);
@@ -96,13 +113,32 @@ Result<std::vector<std::size_t>> panoramas_of_page(const Library& library,
                  "the contact sheet has no page " + std::to_string(settings.page + 1), "",
                  "it has " + std::to_string(pages) + (pages == 1 ? " page" : " pages")};
   }
-  const auto cells = static_cast<std::size_t>(settings.columns) * settings.rows;
+  const auto cells = static_cast<std::size_t>(contact_cell_count(settings));
   std::vector<std::size_t> shown;
   for (std::size_t i = cells * settings.page;
        i < std::min(cells * (settings.page + 1), library.panoramas.size()); ++i) {
     shown.push_back(i);
   }
   return shown;
+}
+
+void add_cards(const SceneInput& input, const std::vector<std::size_t>& shown, Stage& stage) {
+  const double gap = 2.0 / 720.0;
+  const double gap_width = gap * stage.height() / stage.width();
+  const Rectangle area = inset(stage.body(), -gap_width, 0.0);  // outer cards end with the title
+  // That of a whole page also on the last one, which may have fewer.
+  const auto count = static_cast<int>(input.library->panoramas.size());
+  const Grid grid =
+      input.settings.grid.value_or(roomiest_grid(stage, area, std::min(count, kCellsOfPage)));
+  const auto cell = [&](std::size_t i) {
+    const auto place = static_cast<int>(i);
+    return inset(
+        grid_cell(area, grid.columns, grid.rows, place % grid.columns, place / grid.columns),
+        gap_width, gap);
+  };
+  input.pixels->prepare(shown, preview_width(stage, lay_out_card(stage, cell(0)).thumbnail));
+  SharedCamera camera;
+  for (std::size_t i = 0; i < shown.size(); ++i) add_card(input, shown[i], camera, stage, cell(i));
 }
 
 std::string subject_of(const Library& library, const SceneSettings& settings) {
@@ -117,33 +153,32 @@ std::string subject_of(const Library& library, const SceneSettings& settings) {
 
 }  // namespace
 
+int contact_cell_count(const SceneSettings& settings) {
+  return settings.grid ? settings.grid->columns * settings.grid->rows : kCellsOfPage;
+}
+
 int contact_page_count(const Library& library, const SceneSettings& settings) {
-  const int cells = settings.columns * settings.rows;
+  const int cells = contact_cell_count(settings);
   return std::max(1, (static_cast<int>(library.panoramas.size()) + cells - 1) / cells);
 }
 
 Status show_contact_scene(const SceneInput& input, Stage& stage) {
   const SceneSettings& settings = input.settings;
   SHOAL_ASSIGN_OR_RETURN(shown, panoramas_of_page(*input.library, settings));
-  input.pixels->prepare(shown, kThumbnailWidth);
 
   stage.set_title(input.library->title, subject_of(*input.library, settings));
+  const bool some_changed = std::ranges::any_of(
+      shown, [&](std::size_t i) { return !input.library->panoramas[i].change; });
   const std::string lines[] = {"each at its own exposure: pixels, irradiance on a white ball, " +
-                                   describe(settings.quantity) + " lobes at a scale of their own",
+                                   describe(settings.quantity) + " lobes at a scale of their own" +
+                                   (some_changed ? "; other light: pixels before lights were added "
+                                                   "or a part taken out"
+                                                 : ""),
                                "mean luminance" + std::string(kBetween) +
                                    "how far the light comes from one side; " +
                                    describe(settings.frame)};
   stage.set_caption(lines);
-  const double gap = 2.0 / 720.0;
-  const double gap_width = gap * stage.height() / stage.width();
-  const Rectangle area = inset(stage.body(), -gap_width, 0.0);  // outer cards end with the title
-  SharedCamera camera;
-  for (std::size_t i = 0; i < shown.size(); ++i) {
-    const auto place = static_cast<int>(i);
-    const Rectangle cell = grid_cell(area, settings.columns, settings.rows,
-                                     place % settings.columns, place / settings.columns);
-    add_card(input, shown[i], camera, stage, inset(cell, gap_width, gap));
-  }
+  add_cards(input, shown, stage);
   return {};
 }
 

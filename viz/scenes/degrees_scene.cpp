@@ -30,9 +30,9 @@ std::vector<double> energies_of(const Coefficients& coefficients, Channel channe
   return energies;
 }
 
-// Degrees 0 to `degree`, thinned evenly where they are more than there is room for.
-std::vector<int> shown_degrees(int degree) {
-  const int count = std::min(degree + 1, kMostLobes);
+// Degrees 0 to `degree`, thinned evenly where they are more than `most`.
+std::vector<int> shown_degrees(int degree, int most) {
+  const int count = std::min(degree + 1, most);
   std::vector<int> degrees;
   for (int i = 0; i < count; ++i) {
     degrees.push_back(count == 1 ? degree : (2 * i * degree + count - 1) / (2 * (count - 1)));
@@ -53,10 +53,10 @@ struct PartialSum {
   double largest;              // |value|; 1 where all are zero
 };
 
-std::vector<PartialSum> partial_sums(const Mesh& sphere, const Coefficients& whole,
-                                     Channel channel) {
+std::vector<PartialSum> partial_sums(const Mesh& sphere, const Coefficients& whole, Channel channel,
+                                     int most) {
   std::vector<PartialSum> sums;
-  for (const int degree : shown_degrees(whole.degree)) {
+  for (const int degree : shown_degrees(whole.degree, most)) {
     sums.push_back({degree, channel_of(sample_on(sphere, truncate(whole, degree)), channel), 0.0});
     for (const double value : sums.back().values) {
       sums.back().largest = std::max(sums.back().largest, std::abs(value));
@@ -80,11 +80,18 @@ void add_lobe_row(const std::vector<PartialSum>& sums, const Mesh& sphere, const
   }
 }
 
+// As many as are not much smaller than their labels.
+int lobes_within(const Stage& stage, const Rectangle& area) {
+  const double least = 3.2 * stage.line_height(TextSize::label) * stage.height() / stage.width();
+  return std::clamp(static_cast<int>(area.width() / least), 2, kMostLobes);
+}
+
 // Two rows of lobes: their shapes, and their sizes.
 void add_partial_sums(const SceneInput& input, const Coefficients& whole, Stage& stage,
                       const Rectangle& area) {
   const Mesh sphere = sphere_mesh(32);
-  const std::vector<PartialSum> sums = partial_sums(sphere, whole, input.settings.channel);
+  const std::vector<PartialSum> sums =
+      partial_sums(sphere, whole, input.settings.channel, lobes_within(stage, area));
   double largest = 0.0;
   for (const PartialSum& sum : sums) largest = std::max(largest, sum.largest);
 
@@ -172,8 +179,10 @@ Status show_degrees_scene(const SceneInput& input, Stage& stage) {
   const double split = body.bottom + 0.42 * body.height();
   add_partial_sums(input, whole, stage, {body.left, split, body.right, body.top});
   const Rectangle chart{body.left, body.bottom + 2.6 * line, body.right, split - 3.2 * line};
+  const std::string heading =
+      "energy of each degree, logarithmic scale; the integral of f squared, as parts of all";
   stage.add_text(body.left, chart.top + 1.3 * line,
-                 "share of the energy (the integral of f squared) that each degree holds",
+                 stage.clauses_within(heading, TextSize::label, body.width()),
                  {.max_width = body.width()});
   add_energy_bars(energies_of(whole, settings.channel), stage, chart);
   stage.add_text(chart.center_x(), body.bottom, "degree l",

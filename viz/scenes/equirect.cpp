@@ -1,6 +1,5 @@
 #include "scenes/equirect.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -28,11 +27,6 @@ Pixels synthesise(const Coefficients& native, int width, int height) {
     }
   }
   return pixels;
-}
-
-glm::dvec2 place_of(const glm::dvec3& native) {
-  const double turn = std::atan2(native.y, native.x) / (2.0 * kPi);
-  return {turn - std::floor(turn), std::acos(std::clamp(native.z, -1.0, 1.0)) / kPi};
 }
 
 double sphere_mean(const Pixels& like, const std::vector<double>& values) {

@@ -1,8 +1,6 @@
 // Functions on the sphere as equirect pictures.
 #pragma once
 
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 #include <vector>
 
 #include "library/pixels.h"
@@ -14,10 +12,6 @@ namespace shoal::viz {
 // coefficients belong. Row by row: Legendre sums a row and order, then a Fourier sum.
 // Precondition: both are positive.
 [[nodiscard]] Pixels synthesise(const Coefficients& native, int width, int height);
-
-// Where an equirect picture shows a native direction: fractions of its width and its height, from
-// its upper left corner. The direction is of unit length.
-[[nodiscard]] glm::dvec2 place_of(const glm::dvec3& native);
 
 // The mean over the sphere of f, which has a value a texel of `like`: rows weigh as the solid
 // angles of their texels do.

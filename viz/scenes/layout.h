@@ -23,6 +23,13 @@ struct Rectangle {
           area.left + area.width() * (column + 1) / columns, area.top - area.height() * row / rows};
 }
 
+// One of `count` equal parts of the area: side by side, or in an area higher than it is wide on the
+// screen (`aspect` is its width over its height there) one above the other, the first on top.
+[[nodiscard]] constexpr Rectangle part_of_row(const Rectangle& area, double aspect, int count,
+                                              int part) {
+  return aspect >= 1.0 ? grid_cell(area, count, 1, part, 0) : grid_cell(area, 1, count, 0, part);
+}
+
 // The rectangle made smaller by these fractions of the window on either side.
 [[nodiscard]] constexpr Rectangle inset(const Rectangle& area, double horizontal, double vertical) {
   return {area.left + horizontal, area.bottom + vertical, area.right - horizontal,

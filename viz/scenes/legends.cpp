@@ -94,6 +94,11 @@ void add_mark(Stage& stage, const Rectangle& area, const glm::dvec2& place, doub
   const double y =
       std::clamp(area.top - area.height() * place.y, area.bottom + half, area.top - half);
   stage.add_outline({x - half_width, y - half, x + half_width, y + half}, colour);
+  const double across = stage.line_thickness() / stage.width();
+  const double along = stage.line_thickness() / stage.height();
+  stage.add_outline(
+      {x - half_width + across, y - half + along, x + half_width - across, y + half - along},
+      theme::kBackground);
 }
 
 std::string text_of(double value) {

@@ -46,6 +46,7 @@ double add_figures(Stage& stage, const Rectangle& area, std::span<const FigureRo
 
 // A square around a place of a picture that fills the area, as fractions of its width and its
 // height from its upper left corner; `half` its side, of the window's height. It stays inside.
+// Lined with darkness, to be seen on what is bright.
 void add_mark(Stage& stage, const Rectangle& area, const glm::dvec2& place, double half,
               const glm::vec3& colour);
 

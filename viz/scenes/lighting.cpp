@@ -47,8 +47,7 @@ glm::dvec3 IrradianceForm::irradiance(const glm::dvec3& normal) const {
   return {glm::dot(n, forms_[0] * n), glm::dot(n, forms_[1] * n), glm::dot(n, forms_[2] * n)};
 }
 
-TexelLight::TexelLight(const Pixels& pixels, const Frame& frame) {
-  const glm::dmat3 turn = native_to_frame(frame);
+TexelLight::TexelLight(const Pixels& pixels, const glm::dmat3& to_normals) {
   for (int i = 0; i < pixels.height; ++i) {
     const double theta = kPi * (i + 0.5) / pixels.height;
     const double belt = std::cos(kPi * i / pixels.height) - std::cos(kPi * (i + 1) / pixels.height);
@@ -56,8 +55,9 @@ TexelLight::TexelLight(const Pixels& pixels, const Frame& frame) {
     for (int j = 0; j < pixels.width; ++j) {
       const double phi = 2.0 * kPi * (j + 0.5) / pixels.width;
       const float* texel = pixels.at(i, j);
-      directions_.push_back(turn * glm::dvec3(std::sin(theta) * std::cos(phi),
-                                              std::sin(theta) * std::sin(phi), std::cos(theta)));
+      directions_.push_back(to_normals * glm::dvec3(std::sin(theta) * std::cos(phi),
+                                                    std::sin(theta) * std::sin(phi),
+                                                    std::cos(theta)));
       flux_.push_back(solid_angle * glm::dvec3(texel[0], texel[1], texel[2]));
     }
   }

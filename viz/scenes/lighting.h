@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <span>
@@ -9,7 +10,6 @@
 
 #include "library/pixels.h"
 #include "sphere/coefficients.h"
-#include "sphere/frame.h"
 
 namespace shoal::viz {
 
@@ -36,8 +36,9 @@ class IrradianceForm {
 // centre; its solid angle is exact.
 class TexelLight {
  public:
-  // Normals are going to be of that frame.
-  TexelLight(const Pixels& pixels, const Frame& frame);
+  // What is in native direction d of the pixels shines from to_normals * d, in the space that
+  // normals are going to be of: native_to_frame(frame), or that after a rotation of the light.
+  TexelLight(const Pixels& pixels, const glm::dmat3& to_normals);
 
   [[nodiscard]] glm::dvec3 irradiance(const glm::dvec3& normal) const;
 

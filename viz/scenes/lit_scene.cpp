@@ -51,6 +51,8 @@ std::vector<Mesh> exhibits(const Frame& frame) {
 double luminance(const glm::dvec3& light) { return channel_of(light, Channel::luminance); }
 
 struct Comparison {
+  std::string form_is;       // "nine coefficients"
+  std::string reference_is;  // the integral of what
   Light form;
   Light reference;       // empty without pixels
   double mean = 0.0;     // luminance of the reference, over the ball's vertices
@@ -85,10 +87,22 @@ Light light_on(const std::vector<Mesh>& meshes, const Source& source) {
   return light;
 }
 
-// A variant's pixels would be those before it changed them.
+// Pixels of another light would be no reference.
 std::string why_no_reference(const SceneInput& input, const Pixels& pixels) {
-  if (current_panorama(input).changed) return "its pixels are not of this light";
+  if (!current_panorama(input).change) {
+    return "its pixels are of another light, and nothing tells how this one was made of them";
+  }
   return pixels.empty() ? input.pixels->why_empty(input.current) : "";
+}
+
+// Those that the quadratic form holds.
+std::string coefficients_of_degree(int degree) {
+  constexpr const char* kNumbers[] = {"one coefficient", "four coefficients", "nine coefficients"};
+  return kNumbers[std::min(degree, 2)];
+}
+
+std::string describe_texels(const Panorama& panorama) {
+  return *panorama.change == LightChange{} ? "every texel" : "every texel, changed as its light is";
 }
 
 using ColourOf = std::function<glm::vec3(std::size_t mesh, std::size_t vertex)>;
@@ -117,8 +131,8 @@ void add_columns(const std::vector<Column>& columns, const std::vector<Mesh>& me
   const double line = stage.line_height(TextSize::label);
   SharedCamera camera;  // one for all, so that they turn together
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    const Rectangle cell =
-        grid_cell(area, static_cast<int>(columns.size()), 1, static_cast<int>(i), 0);
+    const Rectangle cell = part_of_row(area, stage.aspect(area), static_cast<int>(columns.size()),
+                                       static_cast<int>(i));
     stage.add_text(cell.center_x(), cell.top - line, columns[i].title,
                    {.size = TextSize::heading, .align = TextAlign::center});
     stage.add_text(
@@ -137,8 +151,8 @@ ColourOf as_seen(const Light& light, double exposure) {
 
 void show_alone(const std::vector<Mesh>& meshes, const Comparison& lit, double exposure,
                 const Frame& frame, Stage& stage) {
-  add_columns({{"nine coefficients", "quadratic form of the normal", as_seen(lit.form, exposure)}},
-              meshes, frame, stage, stage.body());
+  add_columns({{lit.form_is, "quadratic form of the normal", as_seen(lit.form, exposure)}}, meshes,
+              frame, stage, stage.body());
 }
 
 void show_beside_reference(const std::vector<Mesh>& meshes, const Comparison& lit, double exposure,
@@ -151,11 +165,11 @@ void show_beside_reference(const std::vector<Mesh>& meshes, const Comparison& li
   const Rectangle body = stage.body();
   const double line = stage.line_height(TextSize::label);
   const Rectangle views{body.left, body.bottom + 3.6 * line, body.right, body.top};
-  add_columns({{"nine coefficients", "quadratic form of the normal", as_seen(lit.form, exposure)},
-               {"reference", "integral over every texel", as_seen(lit.reference, exposure)},
-               {"difference", "nine coefficients minus reference", error}},
+  add_columns({{lit.form_is, "quadratic form of the normal", as_seen(lit.form, exposure)},
+               {"reference", lit.reference_is, as_seen(lit.reference, exposure)},
+               {"difference", lit.form_is + " minus reference", error}},
               meshes, frame, stage, views);
-  const Rectangle last = grid_cell(views, 3, 1, 2, 0);
+  const Rectangle last = part_of_row(views, stage.aspect(views), 3, 2);
   const double ends = lit.mean > 0.0 ? 100.0 * scale / lit.mean : 1.0;
   add_colour_bar(
       stage,
@@ -171,23 +185,25 @@ Status show_lit_scene(const SceneInput& input, Stage& stage) {
   const Panorama& panorama = current_panorama(input);
   const Coefficients radiance = radiance_of(panorama);
   const double exposure = automatic_exposure(radiance, settings.exposure_stops);
-  const Pixels& pixels = input.pixels->get(input.current, kReferenceWidth);
+  const Pixels& pixels = input.pixels->get(input.current, kReferenceWidth, Lying::as_in_file);
   const std::string missing = why_no_reference(input, pixels);
   const std::vector<Mesh> meshes = exhibits(settings.frame);
   Comparison lit;
+  lit.form_is = coefficients_of_degree(radiance.degree);
   lit.form = light_on(meshes, IrradianceForm(to_frame(radiance, settings.frame)));
   if (missing.empty()) {
-    lit.reference = light_on(meshes, TexelLight(pixels, settings.frame));
+    const glm::dmat3 to_drawn = native_to_frame(settings.frame) * panorama.change->turn;
+    lit.reference = light_on(meshes, TexelLight(pixels, to_drawn));
+    lit.reference_is = "integral over " + describe_texels(panorama);
     measure(lit);
   }
 
   stage.set_title(title_of(panorama), "white things in its light");
   const double mean = lit.mean > 0.0 ? lit.mean : 1.0;
   const std::string figures =
-      missing.empty()
-          ? "over all normals the nine coefficients are off by " + percent_of(lit.rms / mean) +
-                " of the mean (RMS), at most by " + percent_of(lit.largest / mean)
-          : "no reference: " + missing;
+      missing.empty() ? "over all normals they are off by " + percent_of(lit.rms / mean) +
+                            " of the mean (RMS), at most by " + percent_of(lit.largest / mean)
+                      : "no reference: " + missing;
   const std::string lines[] = {
       figures + "; irradiance on albedo 0.8, without shadows",
       "one exposure, " + text_of(std::log2(exposure)) + " stops; " + describe(settings.frame)};

@@ -2,13 +2,14 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/mat3x3.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "library/changed_pixels.h"
 #include "library/light.h"
 #include "scenes/actors.h"
 #include "scenes/axes.h"
-#include "scenes/equirect.h"
 #include "scenes/legends.h"
 #include "scenes/lobe.h"
 #include "scenes/pictures.h"
@@ -18,8 +19,10 @@ namespace shoal::viz {
 namespace {
 
 std::string direction_text(const glm::vec3& direction) {
+  const auto rounded = [](float part) { return std::round(100.0 * part) / 100.0 + 0.0; };  // no -0
   char text[64];
-  std::snprintf(text, sizeof text, "(%.2f, %.2f, %.2f)", direction.x, direction.y, direction.z);
+  std::snprintf(text, sizeof text, "(%.2f, %.2f, %.2f)", rounded(direction.x), rounded(direction.y),
+                rounded(direction.z));
   std::string typeset;
   for (const char* c = text; *c != '\0'; ++c)
     typeset += *c == '-' ? std::string(kMinus) : std::string(1, *c);
@@ -70,6 +73,23 @@ void add_thumbnail(const SceneInput& input, const Lobe& lobe, Stage& stage, cons
                  {.size = TextSize::small, .colour = theme::kDimText, .max_width = area.width()});
 }
 
+struct Places {
+  Rectangle shape;
+  Rectangle side;  // of the figures
+};
+
+// The figures at the right, or below where the window is high.
+Places lay_out(const Stage& stage) {
+  const Rectangle body = stage.body();
+  if (stage.aspect(body) < 1.0) {
+    const double split = body.bottom + 0.45 * body.height();
+    return {{body.left, split, body.right, body.top},
+            {body.left, body.bottom, body.right, split - 0.02}};
+  }
+  const Rectangle side{body.right - 0.25, body.bottom, body.right, body.top - 0.02};
+  return {{body.left, body.bottom, side.left - 0.02, body.top}, side};
+}
+
 }  // namespace
 
 Status show_lobes_scene(const SceneInput& input, Stage& stage) {
@@ -79,12 +99,10 @@ Status show_lobes_scene(const SceneInput& input, Stage& stage) {
   stage.set_title(title_of(panorama), describe(settings.quantity) + " lobes");
   stage.set_caption(describe(settings.frame));
 
-  const Rectangle body = stage.body();
-  const double column = 0.25;
-  const Rectangle side{body.right - column, body.bottom, body.right, body.top - 0.02};
-  vtkRenderer& view = stage.add_view({body.left, body.bottom, side.left - 0.02, body.top});
+  const auto [shape, side] = lay_out(stage);
+  vtkRenderer& view = stage.add_view(shape);
   add_scale_sphere(view, settings.frame);
-  add_axes(stage, view, 1.15);
+  add_axes(stage, view, 1.15, TextSize::label, std::make_shared<const Mesh>(lobe.mesh));
   add_mesh(view, lobe.mesh, lobe.colours, Shading::lit);
   aim_camera(view, settings.frame, 1.21);
 

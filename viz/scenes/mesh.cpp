@@ -4,8 +4,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "sphere/linear_operations.h"
 #include "sphere/basis.h"
+#include "sphere/linear_operations.h"
 
 namespace shoal::viz {
 namespace {

@@ -31,6 +31,15 @@ enum class Channel { luminance, red, green, blue };
 // How a lobe surface is coloured.
 enum class LobeColour { sign, light };  // diverging by sign, or the light's own colour
 
+// Cells of a contact sheet's page.
+struct Grid {
+  int columns = 1;
+  int rows = 1;
+};
+
+// What a page holds where no grid is asked for.
+inline constexpr int kCellsOfPage = 20;
+
 struct SceneSettings {
   std::optional<int> degree;               // shown; all that there is where it is not given
   Quantity quantity = Quantity::radiance;  // of lobes, degrees and compare
@@ -38,8 +47,8 @@ struct SceneSettings {
   LobeColour colour = LobeColour::sign;
   Frame frame;                  // whose axes are drawn and named
   double exposure_stops = 0.0;  // on top of the automatic one
-  int columns = 5;              // of a contact sheet's page
-  int rows = 4;
+  std::optional<Grid> grid;     // of a contact sheet; else the one with the largest pictures, of as
+                                // many cells as the library needs, kCellsOfPage at most
   int page = 0;
 };
 
@@ -56,7 +65,8 @@ struct SceneInput {
 // the mouse and filled again. Errors: usage (nothing to compare with, a page that does not exist).
 [[nodiscard]] Status show_scene(SceneKind kind, const SceneInput& input, vtkRenderWindow& window);
 
-// Pages that a contact sheet of the library has.
+// Cells of a page, and pages that a contact sheet of the library has.
+[[nodiscard]] int contact_cell_count(const SceneSettings& settings);
 [[nodiscard]] int contact_page_count(const Library& library, const SceneSettings& settings);
 
 }  // namespace shoal::viz

@@ -9,13 +9,16 @@ const Panorama& current_panorama(const SceneInput& input) {
 }
 
 std::string title_of(const Panorama& panorama) {
-  return panorama.variant.empty() ? panorama.name : panorama.name + " (" + panorama.variant + ")";
+  const std::string& name = panorama.name.empty() ? "(no name)" : panorama.name;
+  return panorama.variant.empty() ? name : name + " (" + panorama.variant + ")";
 }
 
 std::string describe_pixels(const Panorama& panorama) {
-  if (!panorama.changed) return "its pixels";
-  return panorama.variant.empty() ? "its pixels as they are in the file"
-                                  : "its pixels before the variant";
+  if (!panorama.change) return "its pixels before the light was changed";
+  const bool painted = panorama.file.empty();
+  const bool same = *panorama.change == LightChange{};
+  return (painted ? "painted anew" : "its pixels") +
+         std::string(same ? "" : ", changed as its light is");
 }
 
 Coefficients shown_coefficients(const Panorama& panorama, const SceneSettings& settings) {

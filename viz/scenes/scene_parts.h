@@ -20,10 +20,11 @@ namespace shoal::viz {
 // The panorama of `input`. Precondition: the library has one at `current`.
 [[nodiscard]] const Panorama& current_panorama(const SceneInput& input);
 
-// "name" or "name (variant)".
+// "name" or "name (variant)"; something also where the name is empty.
 [[nodiscard]] std::string title_of(const Panorama& panorama);
 
-// What the pixels of its file are: its own, or those that a variant began with.
+// Whose the pixels are: of its file or painted, changed as its light is; or, where nobody can tell
+// how that was made of them, those that it began with.
 [[nodiscard]] std::string describe_pixels(const Panorama& panorama);
 
 // The coefficients of the settings' quantity to the settings' degree, in the settings' frame.

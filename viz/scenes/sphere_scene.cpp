@@ -2,8 +2,12 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
+#include <memory>
+#include <numbers>
 #include <string>
+#include <vector>
 
+#include "library/changed_pixels.h"
 #include "library/light.h"
 #include "scenes/actors.h"
 #include "scenes/axes.h"
@@ -22,12 +26,12 @@ namespace {
 constexpr int kTextureWidth = 1024;
 constexpr int kSmoothWidth = 512;  // of sums of the basis: four texels a half wave of degree 64
 constexpr double kAxisLength = 1.22;
-constexpr double kSceneRadius = 1.36;  // of all that a view shows: the axes with their names
+constexpr double kNameDistance = 1.1 * kAxisLength;  // of the axes' names
 
 struct Ball {
   std::string title;
   std::string subtitle;
-  Pixels light;  // empty: there is no file to take it from
+  Pixels light;
 };
 
 // What all three share.
@@ -53,20 +57,67 @@ void mark(const Look& look, Stage& stage, const Rectangle& flat) {
 // The frame's half axes from where they leave the ball. What is behind the ball it hides, names
 // too.
 void add_ball_axes(Stage& stage, vtkRenderer& view) {
+  const auto ball = std::make_shared<const Mesh>(sphere_mesh(24));
   for (int axis = 0; axis < 3; ++axis) {
     for (const int sign : {1, -1}) {
       const glm::vec3 out(direction_of({axis, sign}));
       const glm::vec3 piece[] = {out, static_cast<float>(kAxisLength) * out};
       if (sign > 0) add_arrow(view, piece[0], piece[1], theme::kAxis, 0.012);
-      if (sign < 0) add_lines(view, piece, theme::kAxis);
+      if (sign < 0) add_lines(view, piece, theme::kAxis, 2.0);
       const std::string name = (sign > 0 ? "+" : kMinus) + std::string(1, "xyz"[axis]);
-      add_label(stage, view, 1.1f * piece[1], name, TextSize::small, theme::kText,
-                LabelDepth::among);
+      add_label(stage, view, static_cast<float>(kNameDistance) * out, name, TextSize::small,
+                theme::kText, ball);
     }
   }
 }
 
-// The ball, below it the same as a flat picture, and its name.
+// Towards the viewer it is a dot in a ring.
+void add_dominant_arrow(vtkRenderer& view, const glm::vec3& direction) {
+  constexpr int kPieces = 48;
+  constexpr float kRise = 0.987f;  // of the ring's middle; its radius is an eighth of the ball's
+  constexpr float kRadius = 0.16f;
+  add_arrow(view, direction, 1.32f * direction, theme::kAccent, 0.03);
+  const glm::vec3 some =
+      std::abs(direction.z) < 0.9f ? glm::vec3(0.0f, 0.0f, 1.0f) : glm::vec3(1.0f, 0.0f, 0.0f);
+  const glm::vec3 across = glm::normalize(glm::cross(direction, some));
+  const glm::vec3 other = glm::cross(direction, across);
+  const auto point = [&](int i) {
+    const float angle = 2.0f * std::numbers::pi_v<float> * static_cast<float>(i) / kPieces;
+    return 1.01f *
+           (kRise * direction + kRadius * (std::cos(angle) * across + std::sin(angle) * other));
+  };
+  std::vector<glm::vec3> ring;
+  for (int i = 0; i < kPieces; ++i) ring.insert(ring.end(), {point(i), point(i + 1)});
+  add_lines(view, ring, theme::kAccent, 2.0);
+}
+
+// Of all that a view shows: the axes with their names, which take more of a small one.
+double scene_radius(const Stage& stage, const Rectangle& view) {
+  constexpr double kLeast = 1.36;
+  const double side = std::min(view.width() * stage.width(), view.height() * stage.height());
+  const double names = 1.1 * stage.text_pixels(TextSize::small) / side;
+  return std::max(kLeast, 0.97 * kNameDistance / std::max(0.3, 1.0 - names));
+}
+
+// Ball and flat picture: the picture below, or beside it where the area is wide.
+struct BallPlaces {
+  Rectangle round;
+  Rectangle flat;
+};
+
+BallPlaces lay_out_ball(const Stage& stage, const Rectangle& area) {
+  const double line = stage.line_height(TextSize::label);
+  if (stage.aspect(area) > 1.6) {
+    const double middle = area.left + 0.42 * area.width();
+    return {{area.left, area.bottom, middle, area.top},
+            stage.fit({middle, area.bottom, area.right - 0.01, area.top}, 2.0)};
+  }
+  const Rectangle flat = stage.fit(
+      {area.left, area.bottom + 0.3 * line, area.right, area.bottom + 0.35 * area.height()}, 2.0);
+  return {{area.left, flat.top + 0.4 * line, area.right, area.top}, flat};
+}
+
+// The ball, the same as a flat picture, and its name.
 void add_ball_view(const Ball& ball, const Look& look, SharedCamera& camera, Stage& stage,
                    const Rectangle& area) {
   const double line = stage.line_height(TextSize::label);
@@ -76,25 +127,24 @@ void add_ball_view(const Ball& ball, const Look& look, SharedCamera& camera, Sta
       area.center_x(), area.top - 2.1 * line,
       stage.clauses_within(ball.subtitle, TextSize::label, area.width()),
       {.colour = theme::kDimText, .align = TextAlign::center, .max_width = area.width()});
-  const Rectangle flat = stage.fit(
-      {area.left, area.bottom + 0.3 * line, area.right, area.bottom + 0.31 * area.height()}, 2.0);
-  const Rectangle round{area.left, flat.top + 0.4 * line, area.right, area.top - 2.5 * line};
-  if (ball.light.empty()) {
-    stage.add_outline(flat);
-    stage.add_text(round.center_x(), round.center_y(), "no pixels to show",
-                   {.colour = theme::kDimText, .align = TextAlign::center});
-    return;
-  }
+  const BallPlaces places =
+      lay_out_ball(stage, {area.left, area.bottom, area.right, area.top - 2.5 * line});
   const Picture picture = tone_mapped_picture(ball.light, look.exposure);
-  stage.add_picture(flat, picture);
-  mark(look, stage, flat);
-  vtkRenderer& view = stage.add_view(round);
-  camera.look_at_lit_side(view, look.frame, kSceneRadius);
+  stage.add_picture(places.flat, picture);
+  mark(look, stage, places.flat);
+  vtkRenderer& view = stage.add_view(places.round);
+  camera.look_at_lit_side(view, look.frame, scene_radius(stage, places.round));
   add_ball(view, picture, look.frame);
   add_ball_axes(stage, view);
-  if (look.dominant != glm::vec3(0.0f)) {
-    add_arrow(view, look.dominant, 1.32f * look.dominant, theme::kAccent, 0.03);
-  }
+  if (look.dominant != glm::vec3(0.0f)) add_dominant_arrow(view, look.dominant);
+}
+
+// For the caption.
+std::string place_of_arrow(const Look& look) {
+  if (look.dominant == glm::vec3(0.0f)) return "; it has no such direction";
+  return glm::dot(look.dominant, lit_side(look.frame)) < -0.5f
+             ? "; as the balls are first seen, behind them"
+             : "";
 }
 
 }  // namespace
@@ -106,26 +156,33 @@ Status show_sphere_scene(const SceneInput& input, Stage& stage) {
   const Coefficients radiance = truncate(whole, settings.degree.value_or(whole.degree));
   const Look look{settings.frame, automatic_exposure(whole, settings.exposure_stops),
                   dominant_direction(whole, settings.frame)};
+  const Pixels& pixels = input.pixels->get(input.current, kTextureWidth);
   const std::string degree = "degree " + std::to_string(radiance.degree);
   const auto synthesised = [](const Coefficients& light) {
     return synthesise(light, kSmoothWidth, kSmoothWidth / 2);
   };
-  Ball balls[] = {
-      {"panorama", describe_pixels(panorama), input.pixels->get(input.current, kTextureWidth)},
-      {"reconstruction", "its radiance to " + degree + "; below zero is black",
-       synthesised(radiance)},
-      {"irradiance / pi", "on a white matt ball, " + degree,
-       synthesised(apply_quantity(radiance, Quantity::irradiance_over_pi))}};
-  if (balls[0].light.empty()) balls[0].subtitle = input.pixels->why_empty(input.current);
+  std::vector<Ball> balls;
+  if (!pixels.empty()) balls.push_back({"panorama", describe_pixels(panorama), pixels});
+  balls.push_back({"reconstruction", "its radiance to " + degree + "; below zero is black",
+                   synthesised(radiance)});
+  balls.push_back({"irradiance / pi", "on a white matt ball, " + degree,
+                   synthesised(apply_quantity(radiance, Quantity::irradiance_over_pi))});
 
   stage.set_title(title_of(panorama), "on the sphere");
-  const std::string lines[] = {
-      "arrow and square: where the light mostly comes from, by degree 1 of its luminance",
+  std::vector<std::string> lines = {
+      "arrow in a ring (a dot in it: towards you) and square: where most light comes from, by "
+      "degree 1 of luminance" +
+          place_of_arrow(look),
       "one exposure, " + text_of(std::log2(look.exposure)) + " stops; " + describe(settings.frame)};
+  if (pixels.empty()) {
+    lines.push_back("no panorama beside them: " + input.pixels->why_empty(input.current));
+  }
   stage.set_caption(lines);
   SharedCamera camera;  // one for all, so that they turn together
-  for (int i = 0; i < 3; ++i) {
-    add_ball_view(balls[i], look, camera, stage, grid_cell(stage.body(), 3, 1, i, 0));
+  const auto count = static_cast<int>(balls.size());
+  for (int i = 0; i < count; ++i) {
+    add_ball_view(balls[i], look, camera, stage,
+                  part_of_row(stage.body(), stage.aspect(stage.body()), count, i));
   }
   return {};
 }

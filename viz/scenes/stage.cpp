@@ -15,6 +15,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <sstream>
 #include <string_view>
 #include <vector>
 
@@ -137,7 +139,8 @@ Rectangle Stage::fit(const Rectangle& area, double wished) const {
 
 int Stage::text_pixels(TextSize size) const {
   constexpr double kPixelsAt720[] = {26.0, 20.0, 16.0, 14.0};
-  const double pixels = kPixelsAt720[static_cast<int>(size)] * height_ / 720.0;
+  const double scale = std::min(height_ / 720.0, width_ / 960.0);
+  const double pixels = kPixelsAt720[static_cast<int>(size)] * scale;
   return std::max(11, static_cast<int>(std::lround(pixels)));
 }
 
@@ -151,12 +154,16 @@ double Stage::text_width(const std::string& text, TextSize size) const {
 
 void Stage::set_title(const std::string& title, const std::string& subject) {
   const double y = body_.top - line_height(TextSize::title) * 0.8;
-  add_text(body_.left, y, title, {.size = TextSize::title, .max_width = body_.width()});
-  const double used = text_width(title, TextSize::title) + 0.8 * kMargin;
-  add_text(body_.left + used, y, subject,
+  const double gap = 0.8 * kMargin;
+  const double wished = text_width(title, TextSize::title);
+  const double beside = body_.width() - gap - text_width(subject, TextSize::heading);
+  const double width = std::min(wished, std::max(beside, 0.667 * body_.width()));
+  add_text(body_.left, y, title,
+           {.size = TextSize::title, .max_width = width + 0.5 / width_, .cut = TextCut::middle});
+  add_text(body_.left + width + gap, y, subject,
            {.size = TextSize::heading,
             .colour = theme::kDimText,
-            .max_width = std::max(0.0, body_.width() - used)});
+            .max_width = std::max(0.0, body_.width() - width - gap) + 0.5 / width_});
   body_.top = y - 0.5 * kMargin;
 }
 
@@ -170,13 +177,31 @@ std::string Stage::clauses_within(const std::string& text, TextSize size, double
   return kept;
 }
 
+std::vector<std::string> Stage::wrapped(const std::string& text, TextSize size,
+                                        double width) const {
+  if (text_width(text, size) <= width) return {text};
+  std::vector<std::string> lines(1);
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    std::string& line = lines.back();
+    const std::string longer = line.empty() ? word : line + " " + word;
+    if (line.empty() || text_width(longer, size) <= width) {
+      line = longer;
+    } else {
+      lines.push_back(word);
+    }
+  }
+  return lines;
+}
+
 void Stage::set_caption(std::span<const std::string> lines, double max_width) {
   const double width = std::min(max_width, body_.width());
   std::vector<std::string> fitting;
   for (std::string rest : lines) {
     while (!rest.empty()) {
-      fitting.push_back(clauses_within(rest, TextSize::label, width));
-      rest.erase(0, fitting.back().size() + std::string_view("; ").size());
+      const std::string clauses = clauses_within(rest, TextSize::label, width);
+      rest.erase(0, clauses.size() + std::string_view("; ").size());
+      std::ranges::move(wrapped(clauses, TextSize::label, width), std::back_inserter(fitting));
     }
   }
   const double step = line_height(TextSize::label);
@@ -216,7 +241,8 @@ void Stage::add_text(double x, double y, const std::string& text, const TextStyl
   if (text.empty() || style.max_width <= 0.0) return;
   vtkNew<vtkTextActor> actor;
   set_style(*actor->GetTextProperty(), text, text_pixels(style.size), style);
-  actor->SetInput(shortened(text, *actor->GetTextProperty(), style.max_width * width_).c_str());
+  actor->SetInput(
+      shortened(text, *actor->GetTextProperty(), style.max_width * width_, style.cut).c_str());
   // Whole pixels: type between them would be blurred.
   actor->SetPosition(std::lround(x * width_), std::lround(y * height_));
   overlay_->AddActor2D(actor);
@@ -256,8 +282,10 @@ void Stage::add_box(const Rectangle& area, const glm::vec3& colour) {
   add_rectangle(*overlay_, area, colour);
 }
 
+double Stage::line_thickness() const { return std::max(1.0, std::round(height_ / 720.0)); }
+
 void Stage::add_outline(const Rectangle& area, const glm::vec3& colour) {
-  const double thick = std::max(1.0, std::round(height_ / 720.0));
+  const double thick = line_thickness();
   const double across = thick / width_;
   const double along = thick / height_;
   add_box({area.left, area.bottom, area.right, area.bottom + along}, colour);

@@ -15,15 +15,17 @@
 #include <map>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "scenes/colours.h"
 #include "scenes/layout.h"
+#include "scenes/type.h"
 #include "window/picture.h"
 
 namespace shoal::viz {
 
-// Heights of type, in a window 720 pixels high: 26, 20, 16 and 14 pixels. They grow with it, and
-// never fall below 11 pixels in a smaller one.
+// Heights of type, in a window 720 pixels high: 26, 20, 16 and 14 pixels. They grow with it, or in
+// one narrower than 4:3 with its width, and never fall below 11 pixels.
 enum class TextSize { title, heading, label, small };
 
 enum class TextAlign { left, center, right };
@@ -32,7 +34,8 @@ struct TextStyle {
   TextSize size = TextSize::label;
   glm::vec3 colour = theme::kText;
   TextAlign align = TextAlign::left;
-  double max_width = 1.0;  // of the window; longer text ends in three dots
+  double max_width = 1.0;  // of the window; longer text is cut
+  TextCut cut = TextCut::end;
 };
 
 class Stage {
@@ -61,10 +64,15 @@ class Stage {
   [[nodiscard]] std::string clauses_within(const std::string& text, TextSize size,
                                            double width) const;
 
-  // A title at the upper left, and what it is about, dimmer, to its right.
+  // As many words a line as have room.
+  [[nodiscard]] std::vector<std::string> wrapped(const std::string& text, TextSize size,
+                                                 double width) const;
+
+  // A title at the upper left, and what it is about, dimmer, to its right: that stays whole where
+  // the title can be shortened to two thirds of the width for it.
   void set_title(const std::string& title, const std::string& subject = {});
   // Lines at the bottom, from the left; at most three of them are meant to be there. One that is
-  // too long goes on in another, after a clause.
+  // too long goes on in another, after a clause, or where a clause alone is too long, a word.
   void set_caption(std::span<const std::string> lines, double max_width = 1.0);
   void set_caption(const std::string& line, double max_width = 1.0) {
     set_caption(std::span(&line, 1), max_width);
@@ -85,6 +93,8 @@ class Stage {
   void add_picture(const Rectangle& area, const Picture& picture);
   // A card behind views, pictures and words.
   void add_panel(const Rectangle& area, const glm::vec3& colour = theme::kPanel);
+  // Of outlines, in pixels: 1 in a window 720 high.
+  [[nodiscard]] double line_thickness() const;
   // A filled rectangle over views, and one's outline, a pixel thick in a window 720 high.
   void add_box(const Rectangle& area, const glm::vec3& colour);
   void add_outline(const Rectangle& area, const glm::vec3& colour = theme::kLine);

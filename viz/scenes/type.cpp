@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <initializer_list>
+#include <vector>
 
 namespace shoal::viz {
 namespace {
@@ -54,6 +55,23 @@ const char* system_font(std::uint32_t letter) {
   return letter >= 0x2E80 && eastern != nullptr ? eastern : western;
 }
 
+// Where each character of a UTF-8 text begins, and where the last one ends. Later bytes of one are
+// 10xxxxxx.
+std::vector<std::size_t> letters_of(const std::string& text) {
+  std::vector<std::size_t> letters;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) letters.push_back(i);
+  }
+  letters.push_back(text.size());
+  return letters;
+}
+
+// How many characters the last " (" and all behind it are; 0 where there is none.
+std::size_t variant_letters(const std::string& text, const std::vector<std::size_t>& letters) {
+  const auto begin = std::ranges::lower_bound(letters, text.rfind(" ("));
+  return begin == letters.end() ? 0 : static_cast<std::size_t>(letters.end() - begin) - 1;
+}
+
 }  // namespace
 
 void set_font(vtkTextProperty& property, const std::string& text) {
@@ -73,16 +91,26 @@ double measured_width(const std::string& text, vtkTextProperty& property) {
   return box[1] - box[0] + 1;
 }
 
-std::string shortened(const std::string& text, vtkTextProperty& property, double pixels) {
+std::string shortened(const std::string& text, vtkTextProperty& property, double pixels,
+                      TextCut cut) {
   if (measured_width(text, property) <= pixels) return text;
-  std::string kept = text;
-  while (!kept.empty()) {
-    // A character of UTF-8 goes as a whole: its later bytes are 10xxxxxx.
-    while (!kept.empty() && (static_cast<unsigned char>(kept.back()) & 0xC0) == 0x80) {
-      kept.pop_back();
-    }
-    if (!kept.empty()) kept.pop_back();
-    if (measured_width(kept + "...", property) <= pixels) return kept + "...";
+  const std::vector<std::size_t> letters = letters_of(text);
+  const std::size_t count = letters.size() - 1;
+  const auto joined = [&](std::size_t head, std::size_t tail) {
+    return text.substr(0, letters[head]) + "..." + text.substr(letters[count - tail]);
+  };
+  const auto fits = [&](std::size_t head, std::size_t tail) {
+    return measured_width(joined(head, tail), property) <= pixels;
+  };
+  if (const std::size_t tail = cut == TextCut::middle ? variant_letters(text, letters) : 0;
+      tail > 0 && fits(0, tail)) {
+    std::size_t head = count - tail;
+    while (!fits(head, tail)) --head;
+    return joined(head, tail);
+  }
+  for (std::size_t kept = count; kept-- > 0;) {
+    const std::size_t tail = cut == TextCut::middle ? kept / 2 : 0;
+    if (fits(kept - tail, tail)) return joined(kept - tail, tail);
   }
   return {};
 }

@@ -14,8 +14,12 @@ void set_font(vtkTextProperty& property, const std::string& text);
 // Pixels that a line of type takes.
 [[nodiscard]] double measured_width(const std::string& text, vtkTextProperty& property);
 
-// The text, or as much of its beginning, with three dots, as stays within so many pixels.
+// What a text that is too long loses: its end, or, of names, which are told apart by their ends,
+// its middle. A last "(variant)" with what follows it stays whole where it has room.
+enum class TextCut { end, middle };
+
+// The text, or as much of it, with three dots, as stays within so many pixels.
 [[nodiscard]] std::string shortened(const std::string& text, vtkTextProperty& property,
-                                    double pixels);
+                                    double pixels, TextCut cut);
 
 }  // namespace shoal::viz

@@ -109,14 +109,19 @@ TEST_F(LibraryTest, ShowsTheLightThatTheManifestAskedFor) {
   ASSERT_EQ(finished.exit_status, 0) << finished.err;
   const Library library = loaded({folder / "own"});
   ASSERT_THAT(names_of(library), ElementsAre("raw", "turned"));
-  EXPECT_FALSE(library.panoramas[0].changed);
-  EXPECT_TRUE(library.panoramas[1].changed);
+  EXPECT_EQ(library.panoramas[0].change, LightChange{});
   Coefficients twice = library.panoramas[0].coefficients;
   for (auto& channel : twice.channels) {
     for (double& value : channel) value *= 2.0;
   }
   const glm::dmat3 turn = *turn_matrix({90.0, 0.0, 0.0});
   expect_near(library.panoramas[1].coefficients, rotate(twice, turn), 1e-13);
+  ASSERT_TRUE(library.panoramas[1].change);
+  for (int column = 0; column < 3; ++column) {
+    const LightChange& change = *library.panoramas[1].change;
+    EXPECT_NEAR(change.colour[column][column], 2.0, 1e-9);
+    EXPECT_LT(glm::length(change.turn[column] - turn[column]), 1e-9);
+  }
   EXPECT_THAT(find_panoramas(library, "raw.plain"), ElementsAre(0));
 }
 
@@ -143,6 +148,25 @@ TEST_F(LibraryTest, HasTheQualityOfEachVariant) {
   EXPECT_FALSE(loaded({out / "coefficients.csv"}).panoramas[0].quality);
 }
 
+// A variant's change is told of what the pixels hold, whatever the entry itself makes of them; of
+// light that was added nobody can tell.
+TEST_F(LibraryTest, TellsWhatVariantsMakeOfThePixels) {
+  make_panoramas();
+  write_text(folder / "own.yaml",
+             "shoal: 1\noutput: own\npanoramas: [{file: a.hdr, exposure: 1}]\nvariants: {plain: "
+             "{}, dim: {exposure: -2}, soft: {window: hann}, rest: {dominant: remove}}\n");
+  const Finished finished = shoal({"run", (folder / "own.yaml").string()});
+  ASSERT_EQ(finished.exit_status, 0) << finished.err;
+  const Library library = loaded({folder / "own"});
+  ASSERT_THAT(names_of(library), ElementsAre("a", "a.dim", "a.soft", "a.rest"));
+  const double factors[] = {2.0, 0.25, 2.0};
+  for (std::size_t i = 0; i < 3; ++i) {
+    ASSERT_TRUE(library.panoramas[i].change) << i;
+    EXPECT_EQ(library.panoramas[i].change->colour[0][0], factors[i]) << i;
+  }
+  EXPECT_FALSE(library.panoramas[3].change);
+}
+
 // What was painted of an entry without a file stands for its pixels.
 TEST_F(LibraryTest, SeesThePictureOfAnEntryWithoutAFile) {
   write_text(
@@ -155,7 +179,9 @@ TEST_F(LibraryTest, SeesThePictureOfAnEntryWithoutAFile) {
   ASSERT_THAT(names_of(library), ElementsAre("day/noon", "key"));
   EXPECT_TRUE(std::filesystem::exists(library.panoramas[0].file)) << library.panoramas[0].file;
   EXPECT_TRUE(library.panoramas[0].pixels);
+  EXPECT_EQ(library.panoramas[0].recipe, "");
   EXPECT_TRUE(library.panoramas[1].file.empty());
+  EXPECT_NE(library.panoramas[1].recipe, "");
   EXPECT_FALSE(library.panoramas[1].pixels);
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "made_library.h"
+#include "sphere/turns.h"
 
 namespace shoal::viz {
 namespace {
@@ -62,8 +63,60 @@ TEST_F(LibraryTest, CachesPixels) {
   EXPECT_THAT(why, HasSubstr("nowhere.exr"));
   EXPECT_EQ(why.find("nowhere.exr"), why.rfind("nowhere.exr")) << why;
   EXPECT_TRUE(cache.get(3, 8).empty());
-  EXPECT_THAT(cache.why_empty(3), HasSubstr("has no picture"));
+  EXPECT_THAT(cache.why_empty(3), HasSubstr("coefficients alone"));
   EXPECT_EQ(cache.why_empty(1), "");
+}
+
+// A panorama's pixels are those of its light: a red texel that is turned a quarter to the right and
+// made half as bright, of 64 columns.
+TEST_F(LibraryTest, ChangesPixelsAsTheLightIs) {
+  test::write_picture(
+      shoal::test::make_picture(
+          64, 32, [](int c, int i, int j) { return c == 0 && i == 12 && j == 5 ? 8.0F : 0.0F; }),
+      MapFormat::exr_float, folder / "red.exr");
+  Library library;
+  library.panoramas.resize(1);
+  library.panoramas[0].file = folder / "red.exr";
+  library.panoramas[0].change = {glm::dmat3(0.5), *turn_matrix({90.0, 0.0, 0.0})};
+  PixelCache cache(library);
+  EXPECT_NEAR(cache.get(0, 64).at(12, 21)[0], 4.0F, 1e-6F);
+  EXPECT_EQ(cache.get(0, 64).at(12, 5)[0], 0.0F);
+  EXPECT_EQ(cache.get(0, 64, Lying::as_in_file).at(12, 5)[0], 4.0F);
+}
+
+// What a store says of skies and lights paints them to the bit as the picture that the manifest
+// could have asked for, but for a disk's radius, which goes through degrees of arc.
+TEST_F(LibraryTest, PaintsWhatHasNoFile) {
+  const std::string sky =
+      "sky: {turbidity: 4, sun: {elevation: 40, azimuth: -70}, ground: [0.1, "
+      "0.2, 0.3], disk: hidden, size: [32, 16]}";
+  const std::string lights =
+      "lights: [{disk: {direction: [1, 2, 1], radius: 35, radiance: [3, 2, 1]}}, {ambient: "
+      "{radiance: 0.5}}, {cosine: {direction: [0, -1, 0.5], radiance: 2}}]";
+  const std::string picture = ", picture: {size: [64, 32]}";
+  test::write_text(folder / "m.yaml",
+                   "shoal: 1\noutput: out\npanoramas:\n  - {name: a, " + sky + "}\n  - {name: b, " +
+                       sky + picture + "}\n  - {name: c, " + lights + "}\n  - {name: d, " + lights +
+                       picture +
+                       "}\n  - {name: e, lights: [{directional: {direction: [0, 0, 1], "
+                       "irradiance: 1}}]}\n");
+  const Finished finished = shoal({"run", (folder / "m.yaml").string()});
+  ASSERT_EQ(finished.exit_status, 0) << finished.err;
+  const auto library = load_library({folder / "out"});
+  ASSERT_TRUE(library) << library.error().text();
+  ASSERT_THAT(library->panoramas, SizeIs(5));
+  PixelCache cache(*library);
+  cache.expect({0, 1, 2, 3, 4});
+  for (const std::size_t i : {0, 2}) {
+    const Pixels painted = cache.get(i, 64);
+    const Pixels& written = cache.get(i + 1, 64);
+    ASSERT_EQ(painted.rgb.size(), written.rgb.size()) << cache.why_empty(i);
+    for (std::size_t k = 0; k < painted.rgb.size(); ++k) {
+      ASSERT_NEAR(painted.rgb[k], written.rgb[k], 1e-6F * (1.0F + written.rgb[k])) << i << ' ' << k;
+    }
+  }
+  EXPECT_TRUE(cache.get(4, 64).empty());
+  EXPECT_THAT(cache.why_empty(4), HasSubstr("directional"));
 }
 
 // Whatever the number of files, each batch fits on a command line, in order and without gaps.

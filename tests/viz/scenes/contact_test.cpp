@@ -23,13 +23,12 @@ Library library_of(int count) {
 }
 
 TEST(ContactPages, AreAsManyAsItTakes) {
-  SceneSettings settings;  // 5 x 4
+  SceneSettings settings;  // 20 on a page
   EXPECT_EQ(contact_page_count(library_of(0), settings), 1);
   EXPECT_EQ(contact_page_count(library_of(1), settings), 1);
   EXPECT_EQ(contact_page_count(library_of(20), settings), 1);
   EXPECT_EQ(contact_page_count(library_of(21), settings), 2);
-  settings.columns = 1;
-  settings.rows = 1;
+  settings.grid = Grid{1, 1};
   EXPECT_EQ(contact_page_count(library_of(7), settings), 7);
 }
 
@@ -39,8 +38,7 @@ TEST(ContactPages, ThatAreNotThereAreAnError) {
   const Library library = library_of(5);
   PixelCache pixels(library);
   SceneInput input{&library, 0, std::nullopt, {}, &pixels};
-  input.settings.columns = 2;
-  input.settings.rows = 2;
+  input.settings.grid = Grid{2, 2};
   for (const int page : {0, 1}) {
     input.settings.page = page;
     EXPECT_TRUE(show_scene(SceneKind::contact, input, **window)) << page;
@@ -94,6 +92,33 @@ TEST(ContactCards, HoldTheirPartsApart) {
       EXPECT_NEAR(stage.aspect(card.lobe), 1.0, 1e-9);
       EXPECT_NEAR(card.words.height(), card.lines * stage.line_height(TextSize::small), 1e-9);
     }
+  }
+}
+
+// Of fewer panoramas the pictures are never smaller, and one has the page for itself. A whole page
+// is no worse than five by four.
+TEST(ContactGrids, GiveFewPanoramasMoreRoom) {
+  auto window = make_offscreen_window({1280, 720});
+  if (!window) GTEST_SKIP() << window.error().text();
+  for (const PictureSize size : {PictureSize{1280, 720}, {400, 800}, {1920, 400}}) {
+    (*window)->SetSize(size.width, size.height);
+    const Stage stage(**window);
+    const auto size_in = [&](const Grid& grid) {
+      const ContactCard card =
+          lay_out_card(stage, grid_cell(stage.body(), grid.columns, grid.rows, 0, 0));
+      return card.thumbnail.width() * card.thumbnail.height() +
+             2.0 * card.ball.width() * card.ball.height();
+    };
+    double last = 1.0;
+    for (int count = 1; count <= kCellsOfPage; ++count) {
+      const Grid grid = roomiest_grid(stage, stage.body(), count);
+      EXPECT_GE(grid.columns * grid.rows, count);
+      EXPECT_LT(grid.columns * (grid.rows - 1), count) << "a row is empty";
+      EXPECT_LE(size_in(grid), last * (1.0 + 1e-9)) << count << " on " << size.width;
+      last = size_in(grid);
+    }
+    EXPECT_GE(last, size_in({5, 4}));
+    EXPECT_EQ(roomiest_grid(stage, stage.body(), 1).columns, 1);
   }
 }
 

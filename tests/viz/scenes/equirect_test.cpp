@@ -1,5 +1,7 @@
 #include "scenes/equirect.h"
 
+#include "library/changed_pixels.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -61,7 +61,7 @@ constexpr double kTexelBound = 0.5 * kPi * (kPi / 64) * (kPi / 64);
 
 TEST(TexelLight, OfAConstantPanoramaIsPi) {
   const Pixels pixels{kWidth, kWidth / 2, std::vector<float>(3 * kWidth * kWidth / 2, 1.0f)};
-  const TexelLight light(pixels, {});
+  const TexelLight light(pixels, glm::dmat3(1.0));
   shoal::test::RandomNumbers random(6);
   for (int trial = 0; trial < 50; ++trial) {
     const glm::dvec3 irradiance = light.irradiance(random_direction(random));
@@ -82,7 +82,7 @@ TEST(TexelLight, OfOneTexelIsItsFluxTimesTheCosine) {
   const double flux =
       7.0 * 2.0 * kPi / 16 * (std::cos(kPi * row / 8) - std::cos(kPi * (row + 1) / 8));
   for (const FrameAlias& alias : frame_aliases()) {
-    const TexelLight light(pixels, alias.frame);
+    const TexelLight light(pixels, native_to_frame(alias.frame));
     const glm::dvec3 towards = native_to_frame(alias.frame) * native;
     const glm::dvec3 across = glm::normalize(glm::cross(towards, glm::dvec3(0.3, 0.5, 0.7)));
     EXPECT_NEAR(light.irradiance(towards).g, flux, 1e-14);
@@ -103,7 +103,7 @@ TEST(TexelLight, AgreesWithTheFormWhereNothingIsLeftOut) {
   }
   const Pixels pixels = synthesise(radiance, kWidth, kWidth / 2);
   for (const FrameAlias& alias : frame_aliases()) {
-    const TexelLight texels(pixels, alias.frame);
+    const TexelLight texels(pixels, native_to_frame(alias.frame));
     const IrradianceForm form(to_frame(radiance, alias.frame));
     for (int trial = 0; trial < 10; ++trial) {
       const glm::dvec3 normal = random_direction(random);

@@ -67,7 +67,7 @@ TEST_F(PixelScenes, AreTheSameTwiceAndAfterAnother) {
 
 // Nothing is cut off: a frame two pixels wide stays background.
 TEST_F(PixelScenes, KeepAwayFromTheBorder) {
-  for (const PictureSize size : {PictureSize{640, 360}, {500, 500}}) {
+  for (const PictureSize size : {PictureSize{640, 360}, {500, 500}, {400, 800}, {960, 200}}) {
     window_->SetSize(size.width, size.height);
     for (const SceneKind kind : kHere) {
       const Picture picture = picture_of(kind);
@@ -119,7 +119,27 @@ TEST_F(PixelScenes, CompareTwoPanoramas) {
   EXPECT_NE(picture_of(SceneKind::compare), alone);
 }
 
-// Without files there is still something to see, but nothing to compare with.
+// The brighter one decides: at the exposure of the other, sixteen times the light would be white
+// all over, whichever side it is on.
+TEST_F(PixelScenes, CompareAtTheExposureOfTheBrighterOne) {
+  Coefficients constant(0);
+  for (auto& channel : constant.channels) channel[0] = 1.0;
+  library_.panoramas[0] = test::panorama_of("dim", constant);
+  for (auto& channel : constant.channels) channel[0] = 16.0;
+  library_.panoramas[1] = test::panorama_of("bright", constant);
+  for (const std::size_t first : {0, 1}) {
+    current_ = first;
+    other_ = 1 - first;
+    const Picture picture = picture_of(SceneKind::compare);
+    for (const int column : {picture.size.width / 4, picture.size.width * 3 / 4}) {
+      const unsigned char* p =
+          picture.rgb.data() + 3 * (picture.size.height * 3 / 10 * picture.size.width + column);
+      EXPECT_LT(p[0], 200) << first << ' ' << column;
+    }
+  }
+}
+
+// Without files there is still something to see, and to compare with no more than itself.
 TEST_F(PixelScenes, ManageWithoutPixels) {
   for (Panorama& panorama : library_.panoramas) panorama.file.clear();
   for (const SceneKind kind : {SceneKind::sphere, SceneKind::lit, SceneKind::contact}) {
@@ -129,6 +149,8 @@ TEST_F(PixelScenes, ManageWithoutPixels) {
   ASSERT_FALSE(status);
   EXPECT_EQ(status.error().code, ErrorCode::usage);
   EXPECT_NE(status.error().text().find("--with"), std::string::npos);
+  settings_.degree = 2;
+  picture_of(SceneKind::compare);
   other_ = 1;
   picture_of(SceneKind::compare);
 }

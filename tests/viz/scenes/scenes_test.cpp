@@ -136,7 +136,7 @@ TEST_F(Scenes, ShowWhatTheSettingsSay) {
   EXPECT_TRUE(changed([](SceneSettings& s) { s.channel = Channel::blue; }));
   EXPECT_TRUE(changed([](SceneSettings& s) { s.colour = LobeColour::light; }));
   EXPECT_TRUE(changed([](SceneSettings& s) { s.frame = *parse_frame("openexr"); }));
-  EXPECT_FALSE(changed([](SceneSettings& s) { s.columns = 3; }));
+  EXPECT_FALSE(changed([](SceneSettings& s) { s.grid = Grid{3, 3}; }));
 }
 
 TEST_F(Scenes, ManageDegreesFromNothingToMany) {
@@ -147,8 +147,11 @@ TEST_F(Scenes, ManageDegreesFromNothingToMany) {
     picture_of(SceneKind::degrees);
     picture_of(SceneKind::lobes);
   }
+  for (const int degree : {0, 9, 14}) {  // labels below the lobes, and along the edges
+    settings_.degree = degree;
+    picture_of(SceneKind::basis);
+  }
   settings_.degree = 0;
-  picture_of(SceneKind::basis);
   library_.panoramas[0] = test::panorama_of("dark", Coefficients(0));
   picture_of(SceneKind::degrees);
   picture_of(SceneKind::lobes);

@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <vtkNew.h>
+#include <vtkTextProperty.h>
+
 #include <cmath>
 
 #include "scenes/legends.h"
+#include "scenes/type.h"
 #include "window/offscreen.h"
 
 namespace shoal::viz {
@@ -77,6 +81,8 @@ TEST(Stage, TypeGrowsWithTheWindowAndStaysLegible) {
   EXPECT_EQ(Stage(**window).text_pixels(TextSize::small), 11);
   (*window)->SetSize(1920, 1080);
   EXPECT_EQ(Stage(**window).text_pixels(TextSize::small), 21);
+  (*window)->SetSize(480, 1080);  // half as wide as 4:3 of 720 lines
+  EXPECT_EQ(Stage(**window).text_pixels(TextSize::title), 13);
 }
 
 TEST(Stage, TitleAndCaptionLeaveTheBodyFree) {
@@ -111,6 +117,39 @@ TEST(Stage, KeepsTheClausesThatHaveRoom) {
   EXPECT_EQ(within("one; two; three", "one; two; thr"), "one; two");
   EXPECT_EQ(within("one; two; three", "one; tw"), "one");
   EXPECT_EQ(within("one; two; three", "o"), "one");
+}
+
+// Names lose their middle, evenly; a variant, with what follows it, stays whole while it has room.
+TEST(Shortened, KeepsWhatTellsNamesApart) {
+  vtkNew<vtkTextProperty> property;
+  set_font(*property, "");
+  property->SetFontSize(16);
+  const auto within = [&](const std::string& text, const std::string& as_wide_as, TextCut cut) {
+    return shortened(text, *property, measured_width(as_wide_as, *property), cut);
+  };
+  const std::string name = "aaaaaaaaaabbbbbbbbbb";
+  EXPECT_EQ(within(name, name, TextCut::middle), name);
+  EXPECT_EQ(within(name, "aaaaa...bbbbb", TextCut::middle), "aaaaa...bbbbb");
+  EXPECT_EQ(within(name, "aaaaa...", TextCut::end), "aaaaa...");
+  const std::string variant = name + " (soft), degree 2";
+  EXPECT_EQ(within(variant, "aaa... (soft), degree 2", TextCut::middle), "aaa... (soft), degree 2");
+  const std::string narrow = within(variant, "aaa... 2", TextCut::middle);
+  EXPECT_EQ(narrow.find("(soft)"), std::string::npos);
+  EXPECT_TRUE(narrow.starts_with("a") && narrow.ends_with(" 2")) << narrow;
+  // A letter of two bytes goes as a whole.
+  EXPECT_EQ(within("\u00e4\u00e4\u00e4\u00e4\u00e4\u00e4", "\u00e4...\u00e4", TextCut::middle),
+            "\u00e4...\u00e4");
+}
+
+// A clause that is longer than a line goes on in another, after a word.
+TEST(Stage, CaptionsGoOnAfterAWord) {
+  auto window = make_offscreen_window({640, 360});
+  if (!window) GTEST_SKIP() << window.error().text();
+  const Stage stage(**window);
+  const double width = stage.text_width("two words of", TextSize::label);
+  const std::vector<std::string> lines = stage.wrapped("two words of it", TextSize::label, width);
+  EXPECT_EQ(lines, (std::vector<std::string>{"two words of", "it"}));
+  EXPECT_EQ(stage.wrapped("longerthanaline", TextSize::label, 0.01).size(), 1U);
 }
 
 // A caption too long for its width goes on in another line, which the body makes room for.
