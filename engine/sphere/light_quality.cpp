@@ -9,6 +9,7 @@
 #include "sphere/dominant_light.h"
 #include "sphere/irradiance.h"
 #include "sphere/linear_operations.h"
+#include "sphere/negative_share.h"
 
 namespace shoal {
 namespace {
@@ -30,12 +31,10 @@ void add_irradiance_figures(const Coefficients& windowed, LightQuality& quality)
   }
   const int rows = std::max(kLeastRows, kRowsPerDegree * (irradiance.degree + 1));
   const EquirectValues grid = equirect_values(of_luminance, irradiance.degree, rows);
-  for (std::size_t i = 0; i < grid.values.size(); ++i) {
-    if (grid.values[i] < 0.0) quality.negative_fraction += grid.shares[i / grid.columns()];
-  }
   const int degree = irradiance.degree;
   const double low = extremum_of(of_luminance, degree, grid, Extremum::least).value;
   const double high = extremum_of(of_luminance, degree, grid, Extremum::greatest).value;
+  if (low < 0.0) quality.negative_fraction = negative_share(of_luminance, degree);
   if (low + high > 0.0) quality.contrast = (high - low) / (high + low);
 }
 

@@ -21,7 +21,9 @@ struct LightQuality {
   // Least over directions and channels, in units of the channel's mean; not where a channel's mean
   // is not positive.
   std::optional<LeastIrradiance> least;
-  double negative_fraction = 0.0;  // of the sphere, where the luminance's irradiance is below zero
+  // Of the sphere, where the luminance's irradiance is below zero (sphere/negative_share.h): to
+  // about 1e-4.
+  double negative_fraction = 0.0;
   // (max - min) / (max + min) of the luminance's irradiance: 0 for a constant environment, 1 where
   // a direction gets nothing. Not where max + min is not positive.
   std::optional<double> contrast;
@@ -54,9 +56,7 @@ struct LightQuality {
 
 // `windowed`: radiance to degree L with its window, whose gains are `gains`. `light`: the same
 // without the window, to degree L or higher; higher, it gives `error`. The extremes of irradiance
-// are refined; its negative part is counted in max(64, 4 (L+1)) x twice as many directions, those
-// of an equirect picture, so to about 0.01 of the sphere. Precondition: coefficients are finite;
-// light's degree >= L.
+// are refined. Precondition: coefficients are finite; light's degree >= L.
 [[nodiscard]] LightQuality light_quality(const Coefficients& windowed,
                                          const std::vector<double>& gains,
                                          const Coefficients& light);

@@ -32,8 +32,7 @@ TEST(LightQuality, OfALoneLightIsTheClosedForm) {
   EXPECT_NEAR(quality.error->relative_rms, 0.08839, 1e-4);
   EXPECT_NEAR(quality.least->value, 4 * least, 1e-10);
   EXPECT_NEAR(glm::dot(quality.least->direction, kDirection), -8.0 / 15, 1e-5);
-  // A boundary of 2 rings of length 2 pi sin, placed to half a texel.
-  EXPECT_NEAR(quality.negative_fraction, std::sqrt(76.0) / 30, 0.003);
+  EXPECT_NEAR(quality.negative_fraction, std::sqrt(76.0) / 30, 1e-4);
   EXPECT_NEAR(*quality.contrast, (17.0 / 16 - least) / (17.0 / 16 + least), 0.002);
   ASSERT_EQ(quality.energy_shares.size(), 3U);
   for (int l = 0; l <= 2; ++l) EXPECT_NEAR(quality.energy_shares[l], (2 * l + 1) / 9.0, 1e-13);
