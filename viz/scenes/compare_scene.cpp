@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <glm/matrix.hpp>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "scenes/pictures.h"
 #include "scenes/scene_parts.h"
 #include "sphere/linear_operations.h"
+#include "sphere/rotation.h"
 
 namespace shoal::viz {
 namespace {
@@ -84,20 +86,24 @@ Result<Pair> more_and_fewer(const SceneInput& input, const Coefficients& whole, 
               "the left's"};
 }
 
-// Errors: usage, where there is nothing to compare with.
+// Errors: usage, where there is nothing to compare with. A light that is turned is compared as its
+// pixels lie, turned back: pixels that were turned would not be its texels any more.
 Result<Pair> pixels_and_sum(const SceneInput& input) {
   const Panorama& panorama = current_panorama(input);
   const Coefficients whole = radiance_of(panorama);
   const double exposure = automatic_exposure(whole, input.settings.exposure_stops);
-  const Pixels& original = input.pixels->get(input.current, kWidth);
+  const Pixels& original = input.pixels->get(input.current, kWidth, Lying::as_in_file);
   if (original.empty()) return more_and_fewer(input, whole, exposure);
   const Coefficients shown = truncate(whole, input.settings.degree.value_or(whole.degree));
+  const glm::dmat3 turn = panorama.change.value_or(LightChange{}).turn;
+  std::string note = turn == glm::dmat3(1.0) ? "" : "; both turned back, as the file lies";
+  if (!panorama.change) note = "; two lights: the second one is not of these pixels alone";
   // A small panorama's pixels come as they are, not made larger.
   return Pair{{"panorama: " + describe_pixels(panorama), original},
               {"reconstruction: radiance to degree " + std::to_string(shown.degree),
-               synthesise(shown, original.width, original.height)},
+               synthesise(rotate(shown, glm::transpose(turn)), original.width, original.height)},
               exposure,
-              panorama.change ? "" : "; two lights: the second one is not of these pixels alone",
+              note,
               "original and reconstruction",
               "the original's"};
 }

@@ -8,6 +8,7 @@
 #include "scenes/axes.h"
 #include "scenes/ball_picture.h"
 #include "scenes/contact_card.h"
+#include "scenes/equirect.h"
 #include "scenes/legends.h"
 #include "scenes/lobe.h"
 #include "scenes/pictures.h"
@@ -18,16 +19,19 @@
 namespace shoal::viz {
 namespace {
 
+constexpr int kSumWidth = 256;  // of sums of the basis: two texels a half wave of degree 64
 constexpr const char* kBetween = " · ";  // figures, on cards and in the caption
 constexpr int kLobeRings = 24;
 constexpr int kBallDegree = 4;  // beyond it the clamped cosine leaves a few thousandths
 
-// In the lower left corner of a picture.
-void add_note(const std::string& text, Stage& stage, const Rectangle& place) {
+// In the lower left corner of a picture; the brief one where there is room for no more.
+void add_note(const std::string& full, const std::string& brief, Stage& stage,
+              const Rectangle& place) {
   const double line = stage.line_height(TextSize::small);
   const double pad = 0.3 * line * stage.height() / stage.width();
+  const bool fits = stage.text_width(full, TextSize::small) + 2.0 * pad <= place.width();
+  const std::string& text = fits ? full : brief;
   const double width = stage.text_width(text, TextSize::small) + 2.0 * pad;
-  if (width > place.width() || line > place.height()) return;
   stage.add_box({place.left, place.bottom, place.left + width, place.bottom + line}, theme::kPanel);
   stage.add_text(place.left + pad, place.bottom + 0.15 * line, text, {.size = TextSize::small});
 }
@@ -38,21 +42,18 @@ int preview_width(const Stage& stage, const Rectangle& thumbnail) {
   return pixels <= 320.0 ? 256 : pixels <= 640.0 ? 512 : 1024;
 }
 
-void add_thumbnail(const SceneInput& input, std::size_t index, double exposure, Stage& stage,
-                   const Rectangle& place) {
+// The pixels, or where there are none what is known of them.
+void add_thumbnail(const SceneInput& input, std::size_t index, const Coefficients& radiance,
+                   double exposure, Stage& stage, const Rectangle& place) {
   const Pixels& pixels = input.pixels->get(index, preview_width(stage, place));
   if (!pixels.empty()) {
     stage.add_picture(place, tone_mapped_picture(pixels, exposure));
-    if (!input.library->panoramas[index].change) add_note("other light", stage, place);
+    if (!input.library->panoramas[index].change) add_note("other light", "other", stage, place);
     return;
   }
-  stage.add_outline(place);
-  stage.add_text(place.center_x(), place.center_y() - 0.3 * stage.line_height(TextSize::small),
-                 "no pixels",
-                 {.size = TextSize::small,
-                  .colour = theme::kDimText,
-                  .align = TextAlign::center,
-                  .max_width = place.width()});
+  const Pixels sum = synthesise(radiance, kSumWidth, kSumWidth / 2);
+  stage.add_picture(place, tone_mapped_picture(sum, exposure));
+  add_note("no pixels: degree " + std::to_string(radiance.degree), "sum", stage, place);
 }
 
 // Name and figures; in one line where there is no room for two.
@@ -94,7 +95,7 @@ void add_card(const SceneInput& input, std::size_t index, SharedCamera& camera, 
   const double exposure = automatic_exposure(radiance, input.settings.exposure_stops);
   const ContactCard card = lay_out_card(stage, cell);
   stage.add_panel(cell);
-  add_thumbnail(input, index, exposure, stage, card.thumbnail);
+  add_thumbnail(input, index, radiance, exposure, stage, card.thumbnail);
   const int side = std::max(16, static_cast<int>(std::lround(card.ball.height() * stage.height())));
   const Coefficients light =
       apply_quantity(truncate(radiance, kBallDegree), Quantity::irradiance_over_pi);

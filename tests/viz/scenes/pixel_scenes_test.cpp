@@ -7,6 +7,8 @@
 
 #include "scenes/equirect.h"
 #include "scenes/scene.h"
+#include "sphere/rotation.h"
+#include "sphere/turns.h"
 #include "support/made_picture.h"
 #include "support/temporary_folder.h"
 #include "viz/scenes/made_library.h"
@@ -137,6 +139,26 @@ TEST_F(PixelScenes, CompareAtTheExposureOfTheBrighterOne) {
       EXPECT_LT(p[0], 200) << first << ' ' << column;
     }
   }
+}
+
+// Compared as the file lies, a light that was turned and one that was not are the same two pictures
+// with the same figures: below the titles of the upper two, which say that it was changed, and
+// above the caption no more than roundings differ.
+TEST_F(PixelScenes, CompareATurnedLightByItsOwnTexels) {
+  window_->SetSize(900, 360);  // the caption is a line of both
+  Panorama& panorama = library_.panoramas[0];
+  const glm::dmat3 turn = *turn_matrix({37.0, 20.0, 0.0});
+  const Picture plain = picture_of(SceneKind::compare);
+  panorama.coefficients = rotate(panorama.coefficients, turn);
+  panorama.change = LightChange{glm::dmat3(1.0), turn};
+  const Picture turned = picture_of(SceneKind::compare);
+  EXPECT_NE(turned, plain);
+  const int row_bytes = 3 * plain.size.width;
+  int differing = 0;
+  for (int i = plain.size.height / 5 * row_bytes; i < plain.size.height * 9 / 10 * row_bytes; ++i) {
+    differing += plain.rgb[i] != turned.rgb[i] ? 1 : 0;
+  }
+  EXPECT_LT(differing, 50);
 }
 
 // Without files there is still something to see, and to compare with no more than itself.
