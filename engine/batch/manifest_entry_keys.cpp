@@ -111,18 +111,6 @@ bool has_key(const YAML::Node& node, std::string_view key) {
   });
 }
 
-// A directional light is infinite where it is.
-bool check_picture(const ManifestReader& reader, const YAML::Node& node,
-                   const EntrySettings& settings) {
-  const bool has_none = std::ranges::any_of(settings.lights, [](const AnalyticLight& light) {
-    return std::holds_alternative<DirectionalLight>(light);
-  });
-  if (!settings.picture || !has_none) return true;
-  reader.error(node["picture"], "a directional light has no picture",
-               "a disk of a small radius has one");
-  return false;
-}
-
 // An entry without a file: a sky, or lights alone.
 bool check_fileless_keys(const ManifestReader& reader, const YAML::Node& node, EntryText& entry) {
   EntrySettings& settings = entry.settings;
@@ -140,7 +128,7 @@ bool check_fileless_keys(const ManifestReader& reader, const YAML::Node& node, E
                  "say file: PATH, or add lights");
   }
   const bool has_light = is_sky ? settings.sky.has_value() : !settings.lights.empty();
-  return entry.name && entry.exclude.empty() && has_light && check_picture(reader, node, settings);
+  return entry.name && entry.exclude.empty() && has_light;
 }
 
 // Whether the keys that name files make sense together; told where they do not.

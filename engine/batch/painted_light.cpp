@@ -19,13 +19,14 @@ Painting sky_painting(const std::shared_ptr<const PreethamModel>& model, int wid
           width,
           height,
           [model](const glm::dvec3& direction) { return model->radiance(direction); },
+          {},
           {}};
 }
 
 // Everything that an entry holds, sun and lights included.
-Result<Painting> whole_painting(const EntrySettings& settings, int width, int height) {
+Painting whole_painting(const EntrySettings& settings, int width, int height) {
   const std::vector<AnalyticLight> lights = native_lights(settings);
-  SHOAL_ASSIGN_OR_RETURN(painting, painting_of(lights, width, height));
+  Painting painting = painting_of(lights, width, height);
   if (!settings.sky) return painting;
   const auto model = std::make_shared<const PreethamModel>(settings.sky->model);
   if (settings.sky->disk == SunDisk::shown) painting.disks.push_back(model->sun());
@@ -67,8 +68,8 @@ PictureFile picture_file(const PanoramaEntry& entry) {
 
 Result<OutputRecord> write_picture_file(const Manifest& manifest, const PanoramaEntry& entry) {
   const PictureFile picture = picture_file(entry);
-  SHOAL_ASSIGN_OR_RETURN(painting, whole_painting(*entry.settings, picture.width, picture.height));
-  SHOAL_ASSIGN_OR_RETURN(source, paint(std::move(painting)));
+  SHOAL_ASSIGN_OR_RETURN(source,
+                         paint(whole_painting(*entry.settings, picture.width, picture.height)));
   MapFile file;
   file.format = format_of(*entry.settings->picture);
   file.width = picture.width;

@@ -16,7 +16,7 @@ namespace shoal {
 [[nodiscard]] PaintedPanorama painted_sky(const std::string& name, const SkyKey& sky);
 
 // Writes the picture that an entry asks for: all of its sky, its sun and its lights, as they are
-// before anything linear is applied. Errors: write_failed; usage (a directional light).
+// before anything linear is applied. Error: write_failed.
 Result<OutputRecord> write_picture_file(const Manifest& manifest, const PanoramaEntry& entry);
 
 }  // namespace shoal

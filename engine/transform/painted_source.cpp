@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <numbers>
-#include <optional>
 #include <utility>
+#include <variant>
 
 #include "core/aligned_buffer.h"
 #include "sphere/coefficients.h"
+#include "sphere/disk_coverage.h"
 
 namespace shoal {
 namespace {
@@ -21,12 +21,6 @@ constexpr std::array<double, kSamples> kOffsets = {-std::numbers::inv_sqrt3 / 2.
                                                    std::numbers::inv_sqrt3 / 2.0};
 constexpr int kRowsPerBand = 16;  // a wish of the caller is none: rows are painted one by one
 
-// Samples a side of a texel on the edge of a disk: so many a radius, within bounds that keep great
-// disks from costing and tiny ones from taking for ever.
-constexpr double kSamplesPerRadius = 64.0;
-constexpr int kMinEdgeSamples = 16;
-constexpr int kMaxEdgeSamples = 1024;
-
 struct Angle {
   double cosine = 1.0;
   double sine = 0.0;
@@ -38,35 +32,17 @@ glm::dvec3 direction_of(const Angle& theta, const Angle& phi) {
   return {theta.sine * phi.cosine, theta.sine * phi.sine, theta.cosine};
 }
 
-// A disk with what deciding about texels needs of it.
+// A disk with what it covers.
 struct PaintedDisk {
-  glm::dvec3 axis;
-  double theta = 0.0;  // of the axis
-  double phi = 0.0;    // in [0, 2 pi)
-  double radius = 0.0;
-  double chord_squared = 0.0;  // within it is who is no further than this from the axis
-  double solid_angle = 0.0;
+  DiskCoverage coverage;
   glm::dvec3 radiance;
+};
 
-  explicit PaintedDisk(const DiskLight& light)
-      : axis(glm::normalize(light.direction)),
-        theta(std::atan2(std::hypot(axis.x, axis.y), axis.z)),
-        phi(std::atan2(axis.y, axis.x)),
-        radius(light.angular_radius),
-        radiance(light.radiance) {
-    if (phi < 0.0) phi += 2.0 * kPi;
-    const double half_sine = std::sin(radius / 2.0);
-    chord_squared = 4.0 * half_sine * half_sine;
-    solid_angle = kPi * chord_squared;
-  }
-
-  [[nodiscard]] bool holds(const glm::dvec3& direction) const {
-    const glm::dvec3 chord = direction - axis;
-    return glm::dot(chord, chord) <= chord_squared;
-  }
-  [[nodiscard]] double angle_to(const glm::dvec3& direction) const {
-    return 2.0 * std::asin(std::min(1.0, glm::length(direction - axis) / 2.0));
-  }
+// A directional light's radiance in one texel.
+struct Spot {
+  int row = 0;
+  int column = 0;
+  glm::dvec3 radiance;
 };
 
 class PaintedSource final : public PanoramaSource {
@@ -80,7 +56,10 @@ class PaintedSource final : public PanoramaSource {
     info_.height = painting_.height;
     info_.rows_per_band = kRowsPerBand;
     info_.band_count = (painting_.height + kRowsPerBand - 1) / kRowsPerBand;
-    for (const DiskLight& disk : painting_.disks) disks_.emplace_back(disk);
+    for (const DiskLight& disk : painting_.disks) {
+      disks_.push_back({DiskCoverage(disk, info_.width, info_.height), disk.radiance});
+    }
+    for (const DirectionalLight& light : painting_.directional) add_spots(light);
     columns_.resize(static_cast<std::size_t>(painting_.width) * kSamples);
     for (int j = 0; j < painting_.width; ++j) {
       for (int k = 0; k < kSamples; ++k) {
@@ -98,11 +77,13 @@ class PaintedSource final : public PanoramaSource {
 
  private:
   void add_function(int row, std::vector<glm::dvec3>& colours) const;
-  void add_disk(int row, const PaintedDisk& disk, std::vector<glm::dvec3>& colours) const;
-  [[nodiscard]] double edge_share(int row, int column, const PaintedDisk& disk) const;
+  [[nodiscard]] double mean_theta(int row) const;
+  void add_spots(const DirectionalLight& light);
+  void add_spots_of_row(int row, double phi, const glm::dvec3& irradiance);
 
   [[nodiscard]] double texel_solid_angle(int row) const {
-    return column_step_ * (std::cos(row_step_ * row) - std::cos(row_step_ * (row + 1)));
+    // cos(a) - cos(b), but without the loss of digits near the poles.
+    return column_step_ * 2.0 * std::sin(row_step_ * (row + 0.5)) * std::sin(row_step_ / 2.0);
   }
 
   Painting painting_;
@@ -110,6 +91,7 @@ class PaintedSource final : public PanoramaSource {
   double row_step_;
   double column_step_;
   std::vector<PaintedDisk> disks_;
+  std::vector<Spot> spots_;
   std::vector<Angle> columns_;  // of the samples, kSamples a texel
 };
 
@@ -128,48 +110,38 @@ void PaintedSource::add_function(int row, std::vector<glm::dvec3>& colours) cons
   }
 }
 
-// The share of a texel that lies in the disk.
-double PaintedSource::edge_share(int row, int column, const PaintedDisk& disk) const {
-  const double wanted = kSamplesPerRadius * std::max(row_step_, column_step_) / disk.radius;
-  const int count = static_cast<int>(
-      std::clamp(std::ceil(wanted), double{kMinEdgeSamples}, double{kMaxEdgeSamples}));
-  std::vector<Angle> phis(count);
-  for (int j = 0; j < count; ++j) {
-    phis[j] = angle_of(column_step_ * (column + (j + 0.5) / count));
-  }
-  double within = 0.0;
-  double all = 0.0;
-  for (int i = 0; i < count; ++i) {
-    const Angle theta = angle_of(row_step_ * (row + (i + 0.5) / count));
-    int hits = 0;
-    for (const Angle& phi : phis) hits += disk.holds(direction_of(theta, phi)) ? 1 : 0;
-    within += theta.sine * hits;
-    all += theta.sine * count;
-  }
-  return within / all;
+// The mean of theta over a texel of a row. Over a pole lies the first row again.
+double PaintedSource::mean_theta(int row) const {
+  if (row < 0) return -mean_theta(-1 - row);
+  if (row >= painting_.height) return 2.0 * kPi - mean_theta(2 * painting_.height - 1 - row);
+  const double half = row_step_ / 2.0;
+  const double centre = row_step_ * (row + 0.5);
+  return centre + (1.0 - half / std::tan(half)) / std::tan(centre);
 }
 
-void PaintedSource::add_disk(int row, const PaintedDisk& disk,
-                             std::vector<glm::dvec3>& colours) const {
-  const double step = std::max(row_step_, column_step_);
-  if (disk.radius < step / 16.0) {
-    const int height = painting_.height;
-    if (std::min(static_cast<int>(disk.theta / row_step_), height - 1) != row) return;
-    const int column = std::min(static_cast<int>(disk.phi / column_step_), painting_.width - 1);
-    colours[column] += disk.radiance * (disk.solid_angle / texel_solid_angle(row));
-    return;
+void PaintedSource::add_spots(const DirectionalLight& light) {
+  const glm::dvec3& axis = light.direction;
+  const double theta = std::atan2(std::hypot(axis.x, axis.y), axis.z);
+  const double phi = std::atan2(axis.y, axis.x);
+  int above = static_cast<int>(std::floor(theta / row_step_ - 0.5));
+  if (mean_theta(above) > theta) --above;
+  if (mean_theta(above + 1) < theta) ++above;
+  const double way = mean_theta(above + 1) - mean_theta(above);
+  for (const int row : {above, above + 1}) {
+    const int seen = std::clamp(row, 0, painting_.height - 1);
+    const double share = 1.0 - std::abs(theta - mean_theta(row)) / way;
+    add_spots_of_row(seen, seen == row ? phi : phi + kPi, share * light.irradiance);
   }
-  // No point of a texel is further from its centre than this: half a row down, half a column along.
-  const double reach = (row_step_ + column_step_) / 2.0;
-  const double theta = row_step_ * (row + 0.5);
-  if (std::abs(theta - disk.theta) > disk.radius + reach) return;
-  const Angle row_angle = angle_of(theta);
-  for (int column = 0; column < painting_.width; ++column) {
-    const Angle phi = angle_of(column_step_ * (column + 0.5));
-    const double angle = disk.angle_to(direction_of(row_angle, phi));
-    if (angle - reach > disk.radius) continue;
-    const double share = angle + reach < disk.radius ? 1.0 : edge_share(row, column, disk);
-    colours[column] += share * disk.radiance;
+}
+
+void PaintedSource::add_spots_of_row(int row, double phi, const glm::dvec3& irradiance) {
+  const int width = painting_.width;
+  const double place = phi / column_step_ - 0.5;
+  const double left = std::floor(place);
+  for (const double column : {left, left + 1.0}) {
+    const double share = 1.0 - std::abs(place - column);
+    const int seen = (static_cast<int>(column) % width + width) % width;
+    spots_.push_back({row, seen, share / texel_solid_angle(row) * irradiance});
   }
 }
 
@@ -177,7 +149,13 @@ void PaintedSource::paint_row(int row, std::vector<glm::dvec3>& row_colours,
                               const std::array<float*, kChannelCount>& planes) const {
   row_colours.assign(painting_.width, glm::dvec3(0.0));
   if (painting_.radiance) add_function(row, row_colours);
-  for (const PaintedDisk& disk : disks_) add_disk(row, disk, row_colours);
+  for (const PaintedDisk& disk : disks_) {
+    const std::vector<double> shares = disk.coverage.shares(row);
+    for (std::size_t j = 0; j < shares.size(); ++j) row_colours[j] += shares[j] * disk.radiance;
+  }
+  for (const Spot& spot : spots_) {
+    if (spot.row == row) row_colours[spot.column] += spot.radiance;
+  }
   for (int c = 0; c < kChannelCount; ++c) {
     for (int j = 0; j < painting_.width; ++j) planes[c][j] = static_cast<float>(row_colours[j][c]);
   }
@@ -234,19 +212,16 @@ Result<std::unique_ptr<PanoramaSource>> paint(Painting painting) {
   return std::unique_ptr<PanoramaSource>(std::make_unique<PaintedSource>(std::move(painting)));
 }
 
-Result<Painting> painting_of(std::span<const AnalyticLight> lights, int width, int height) {
-  Painting painting{"painted lights", width, height, {}, {}};
+Painting painting_of(std::span<const AnalyticLight> lights, int width, int height) {
+  Painting painting{"painted lights", width, height, {}, {}, {}};
   std::vector<PaintableLight> smooth;
   for (const AnalyticLight& light : lights) {
-    const std::optional<PaintableLight> one = paintable(light);
-    if (!one) {
-      return Error{ErrorCode::usage, "a directional light has no picture", "",
-                   "a disk of a small radius has one"};
-    }
-    if (const auto* disk = std::get_if<DiskLight>(&*one)) {
+    if (const auto* disk = std::get_if<DiskLight>(&light)) {
       painting.disks.push_back(*disk);
+    } else if (const auto* directional = std::get_if<DirectionalLight>(&light)) {
+      painting.directional.push_back(*directional);
     } else {
-      smooth.push_back(*one);
+      smooth.push_back(*paintable(light));
     }
   }
   if (smooth.empty()) return painting;

@@ -78,8 +78,6 @@ TEST_F(SkyTest, WhatIsWrongIsTold) {
   EXPECT_THAT(told("file: a.hdr, sky: {sun: {elevation: 2}}"),
               HasSubstr("sky does not go with file"));
   EXPECT_THAT(told("file: a.hdr, picture: {}"), HasSubstr("picture does not go with file"));
-  EXPECT_THAT(told("lights: [{directional: {direction: [0, 0, 1], irradiance: 1}}], picture: {}"),
-              HasSubstr("a directional light has no picture"));
   EXPECT_THAT(told("lights: [{ambient: {radiance: 1}}], picture: {format: hdr, type: half}"),
               HasSubstr("type is for format: exr only"));
 }
@@ -128,7 +126,8 @@ TEST_F(SkyTest, TheSameBytesForAnyNumberOfThreads) {
 // coefficients within the sampling error, here of a sun of 0.5 degrees in texels of 1.4.
 TEST_F(SkyTest, ThePictureHoldsEverything) {
   const std::string lights =
-      ", frame: openexr, lights: [{cosine: {direction: [0, -1, 0.2], radiance: [9, 3, 1]}}]";
+      ", frame: openexr, lights: [{cosine: {direction: [0, -1, 0.2], radiance: [9, 3, 1]}}, "
+      "{directional: {direction: [1, 2, 0], irradiance: 40}}]";
   run(one_sky("", lights + ", picture: {size: [256, 128]}",
               "variants: {plain: {frame: native, exposure: 0}}\n"));
   const Coefficients entry = coefficients();
