@@ -28,6 +28,7 @@ constexpr int kMaxPreviewWidth = 1 << 14;
 struct PreviewCommand {
   std::vector<std::string> files;
   std::string folder;
+  std::string layout;
   int width = 256;
   int threads = 0;
   std::string format = "exr";
@@ -48,6 +49,7 @@ struct Outcome {
   std::string output;
   int width = 0;
   int height = 0;
+  Layout layout = Layout::equirect;
   std::vector<std::string> warnings;
   Status status;
 };
@@ -56,9 +58,13 @@ struct Outcome {
 // those before it have ended.
 class PreviewRun {
  public:
-  PreviewRun(const PreviewCommand& command, const PreviewFormat& format,
+  PreviewRun(const PreviewCommand& command, const PreviewFormat& format, Layout layout,
              const std::atomic<bool>& stop)
-      : command_(command), format_(format), stop_(stop), outcomes_(command.files.size()) {}
+      : command_(command),
+        format_(format),
+        settings_{command.width, layout},
+        stop_(stop),
+        outcomes_(command.files.size()) {}
 
   void run(int threads) {
     const auto work = [this] {
@@ -91,12 +97,13 @@ class PreviewRun {
   }
 
   Status shrink(std::size_t index, Outcome& outcome) {
-    SHOAL_ASSIGN_OR_RETURN(preview, make_preview(command_.files[index], {}, command_.width, stop_));
+    SHOAL_ASSIGN_OR_RETURN(preview, make_preview(command_.files[index], {}, settings_, stop_));
     const std::filesystem::path output = std::filesystem::path(command_.folder) /
                                          fmt::format("{:06}.{}", index + 1, format_.extension);
     outcome.output = output.string();
     outcome.width = preview.width;
     outcome.height = preview.height;
+    outcome.layout = preview.layout;
     outcome.warnings = std::move(preview.warnings);
     return write_preview(preview, format_.format, output);
   }
@@ -111,8 +118,10 @@ class PreviewRun {
 
   void print(const std::string& file, const Outcome& outcome) {
     if (outcome.status) {
-      fmt::print("{{\"input\": {}, \"output\": {}, \"width\": {}, \"height\": {}}}\n",
-                 json_quoted(file), json_quoted(outcome.output), outcome.width, outcome.height);
+      fmt::print(
+          "{{\"input\": {}, \"output\": {}, \"width\": {}, \"height\": {}, \"layout\": {}}}\n",
+          json_quoted(file), json_quoted(outcome.output), outcome.width, outcome.height,
+          json_quoted(name_of(outcome.layout)));
     } else if (outcome.status.error().code != ErrorCode::interrupted) {
       const std::string text = outcome.status.error().text();
       fmt::print("{{\"input\": {}, \"error\": {}}}\n", json_quoted(file), json_quoted(text));
@@ -123,6 +132,7 @@ class PreviewRun {
 
   const PreviewCommand& command_;
   const PreviewFormat& format_;
+  const PreviewSettings settings_;
   const std::atomic<bool>& stop_;
   std::atomic<std::size_t> next_{0};
   std::mutex mutex_;  // guards what follows
@@ -134,8 +144,14 @@ class PreviewRun {
 
 int preview(const PreviewCommand& command) {
   const PreviewFormat& format = *std::ranges::find(kFormats, command.format, &PreviewFormat::name);
+  const Result<Layout> layout =
+      command.layout.empty() ? Result<Layout>(Layout::equirect) : parse_layout(command.layout);
+  if (!layout) {
+    print_error(layout.error());
+    return kExitUsage;
+  }
   const std::atomic<bool>& stop = stop_on_interrupt();
-  PreviewRun run(command, format, stop);
+  PreviewRun run(command, format, *layout, stop);
   run.run(command.threads > 0 ? command.threads : default_thread_count());
   print_warnings(run.warnings());
   print_failures(run.failures());
@@ -151,8 +167,10 @@ void add_preview_options(CLI::App& command, Action& action) {
   command
       .add_option("-o,--output", options->folder,
                   "Folder for 000001.exr, 000002.exr ... in the order of FILE; a line of JSON each "
-                  "on standard output says which is whose")
+                  "on standard output says which is whose, and the layout it was taken for")
       ->required();
+  command.add_option("--layout", options->layout,
+                     "Layout of the panoramas, as for `project`; the pictures are equirect");
   command
       .add_option("--width", options->width,
                   "Of the pictures, 256 by default; never more than the panorama has. The height "

@@ -191,19 +191,13 @@ CubeFace cube_face(int face) {
   }
 }
 
-CubeMapping::CubeMapping(Layout layout, int edge) : edge_(edge) {
-  const LayoutSize blocks = size_of(layout, 1);
-  columns_ = blocks.width;
-  rows_ = blocks.height;
+std::vector<CubeBlock> cube_blocks(Layout layout) {
   const bool is_openexr = layout == Layout::cube_openexr;
-  sampling_ = is_openexr ? FaceSampling::endpoints : FaceSampling::centers;
-  const bool on_edges = is_openexr && edge > 1;
-  step_ = 2.0 / (on_edges ? edge - 1 : edge);
-  first_ = on_edges ? -1.0 : 0.5 * step_ - 1.0;
   const Frame openexr{{2, 1}, {0, -1}, {1, 1}};
   const glm::dmat3 native_to_cube = native_to_frame(is_openexr ? openexr : cube_frame());
+  std::vector<CubeBlock> blocks;
   for (const char letter : blocks_of(layout)) {
-    Block block;
+    CubeBlock block;
     if (letter != ' ') {
       block.number = letter == 'r' ? 5 : letter - '0';
       const CubeFace axes = is_openexr ? openexr_face(block.number) : cube_face(block.number);
@@ -212,8 +206,20 @@ CubeMapping::CubeMapping(Layout layout, int edge) : edge_(edge) {
                     turn * to_native(native_to_cube, axes.right),
                     turn * to_native(native_to_cube, axes.down)};
     }
-    blocks_.push_back(block);
+    blocks.push_back(block);
   }
+  return blocks;
+}
+
+CubeMapping::CubeMapping(Layout layout, int edge) : edge_(edge), blocks_(cube_blocks(layout)) {
+  const LayoutSize blocks = size_of(layout, 1);
+  columns_ = blocks.width;
+  rows_ = blocks.height;
+  const bool is_openexr = layout == Layout::cube_openexr;
+  sampling_ = is_openexr ? FaceSampling::endpoints : FaceSampling::centers;
+  const bool on_edges = is_openexr && edge > 1;
+  step_ = 2.0 / (on_edges ? edge - 1 : edge);
+  first_ = on_edges ? -1.0 : 0.5 * step_ - 1.0;
 }
 
 double CubeMapping::solid_angle(int row, int column, double s, double t, double inverse) const {

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <glm/vec3.hpp>
+#include <vector>
 
 #include "sphere/layout.h"
 
@@ -55,6 +56,15 @@ inline constexpr int kCubeFaceCount = 6;  // +x -x +y -y +z -z
 // Faces of the cube in its own axes, as OpenGL and Direct3D lay them out.
 [[nodiscard]] CubeFace cube_face(int face);
 
+// A square of a cube's picture, as large as a face.
+struct CubeBlock {
+  CubeFace face;    // in the native frame, turned as the picture shows it
+  int number = -1;  // of the face; -1: shows nothing
+};
+
+// The blocks of a cube's picture, row by row. Precondition: a cube's layout.
+[[nodiscard]] std::vector<CubeBlock> cube_blocks(Layout layout);
+
 // Where the texels of a face are sampled.
 enum class FaceSampling {
   centers,    // half a texel away from the face's edges
@@ -76,11 +86,6 @@ class CubeMapping {
   [[nodiscard]] std::array<int, 2> column_range(int column) const;
 
  private:
-  struct Block {
-    CubeFace face;
-    int number = -1;  // of the face; -1: shows nothing
-  };
-
   // `inverse` is 1/(1 + s^2 + t^2).
   [[nodiscard]] double solid_angle(int row, int column, double s, double t, double inverse) const;
 
@@ -88,9 +93,9 @@ class CubeMapping {
   int columns_;  // of blocks
   int rows_;
   FaceSampling sampling_;
-  double step_;                // from a texel to the next
-  double first_;               // place of the first
-  std::vector<Block> blocks_;  // (rows, columns)
+  double step_;                    // from a texel to the next
+  double first_;                   // place of the first
+  std::vector<CubeBlock> blocks_;  // (rows, columns)
 };
 
 // Angular map and mirror ball: a disc in a square of `size` texels.

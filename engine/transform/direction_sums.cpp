@@ -52,7 +52,7 @@ void DirectionSums::add_rows(const RowBand& band, ProjectionWorker& worker) {
 
 void DirectionSums::add_scanline(const RowBand& band, int row, ProjectionWorker& worker) {
   const int number = band.row_begin + row;
-  const ScanlinePlace place = place_of(number);
+  const ScanlinePlace place = scanline_place(info_, number);
   const TexelLine line{static_cast<int>(place.row), static_cast<int>(place.column), place.row_step,
                        place.column_step, band.width};
   const TexelSpan span = geometry_.span_of(line);

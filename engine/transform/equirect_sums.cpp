@@ -53,7 +53,7 @@ void EquirectSums::project_rows(const RowBand& band, ProjectionWorker& worker) {
                        worker.ranges);
   for (int row = 0; row < band.row_count(); ++row) {
     const auto ranges = std::span(worker.ranges).subspan(row * channels, channels);
-    look_at(band, row, place_of(band.row_begin + row), ranges, worker);
+    look_at(band, row, scanline_place(info_, band.row_begin + row), ranges, worker);
     if (needs_policy(ranges)) {
       reproject_row(band, row, worker);
       continue;
@@ -69,7 +69,7 @@ void EquirectSums::reproject_row(const RowBand& band, int row, ProjectionWorker&
   const auto ranges =
       std::span(worker.ranges).subspan(row * band.channel_count, band.channel_count);
   const int picture_row = band.row_begin + row;
-  const ScanlinePlace place = place_of(picture_row);
+  const ScanlinePlace place = scanline_place(info_, picture_row);
   const TreatedBand treated =
       treat_for_kernel(band, row, place, ranges, clamp_record(place, band.width), worker);
   std::array<kernels::SampleRange, kMaxChannels> unused;
@@ -104,7 +104,7 @@ void EquirectSums::add_column(int column, const PolicyRow& treated) {
 
 // The moments of order 0 are kept too, for the mean.
 void EquirectSums::add_to_reference(int scanline, const PolicyRow& treated) {
-  const ScanlinePlace place = place_of(scanline);
+  const ScanlinePlace place = scanline_place(info_, scanline);
   const auto width = static_cast<int>(treated.channels[0].size());
   for (int j = 0; j < width; ++j) {
     std::array<float, kChannelCount> sample;
@@ -123,7 +123,7 @@ void EquirectSums::add_rows(const RowBand& band, ProjectionWorker& worker) {
   if (shareable()) return project_rows(band, worker);
   for (int row = 0; row < band.row_count(); ++row) {
     const int scanline = band.row_begin + row;
-    const ScanlinePlace place = place_of(scanline);
+    const ScanlinePlace place = scanline_place(info_, scanline);
     look_at(band, row, place, {}, worker);
     const PolicyRow treated = treat(band, row, place, clamp_record(place, band.width), worker);
     if (reference_) {

@@ -35,6 +35,15 @@ float without_clamp(float sample, const PixelPolicy& policy) {
 
 }  // namespace
 
+ScanlinePlace scanline_place(const PictureInfo& info, int scanline) {
+  const bool reversed = info.samples_reversed;
+  const int step = reversed ? -1 : 1;
+  if (info.scan_axis == ScanAxis::rows) {
+    return {scanline, reversed ? info.width - 1 : 0, 0, step};
+  }
+  return {reversed ? info.height - 1 : 0, scanline, step, 0};
+}
+
 void PictureSums::add(const RowBand& band, ProjectionWorker& worker) {
   add_rows(band, worker);
   hand_over(worker);
@@ -85,15 +94,6 @@ void PictureSums::look_at(const RowBand& band, int row, const ScanlinePlace& pla
   }
   // The sooner these are known, the fewer of the next rows are.
   if (worker.bright.size() >= kManyBright) hand_over(worker);
-}
-
-ScanlinePlace PictureSums::place_of(int scanline) const {
-  const bool reversed = info_.samples_reversed;
-  const int step = reversed ? -1 : 1;
-  if (info_.scan_axis == ScanAxis::rows) {
-    return {scanline, reversed ? info_.width - 1 : 0, 0, step};
-  }
-  return {reversed ? info_.height - 1 : 0, scanline, step, 0};
 }
 
 bool PictureSums::needs_policy(std::span<const kernels::SampleRange> ranges) const {

@@ -51,6 +51,9 @@ struct TexelChange {
   std::array<float, kMaxChannels> to{};
 };
 
+// Where a scanline's first sample lies in the picture, and where the others go from there.
+[[nodiscard]] ScanlinePlace scanline_place(const PictureInfo& info, int scanline);
+
 class PictureSums {
  public:
   virtual ~PictureSums() = default;
@@ -84,9 +87,6 @@ class PictureSums {
   // Gathers the bright texels of a row as they are before any clamp. Without ranges, of every row.
   void look_at(const RowBand& band, int row, const ScanlinePlace& place,
                std::span<const kernels::SampleRange> ranges, ProjectionWorker& worker) const;
-
-  // Where a scanline's first sample lies in the picture, and where the others go from there.
-  [[nodiscard]] ScanlinePlace place_of(int scanline) const;
 
   // Whether samples of such a range are other than ordinary light, which nearly all are.
   [[nodiscard]] bool needs_policy(std::span<const kernels::SampleRange> ranges) const;

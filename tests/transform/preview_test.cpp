@@ -26,7 +26,7 @@ Preview preview_of(const test::Picture& picture, int width,
                    MapFormat format = MapFormat::exr_float) {
   const test::TemporaryFolder folder;
   test::write_picture(picture, format, folder / "picture");
-  auto preview = make_preview(folder / "picture", {}, width, kGoOn);
+  auto preview = make_preview(folder / "picture", {}, {width}, kGoOn);
   EXPECT_TRUE(preview) << preview.error().text();
   return preview ? *preview : Preview();
 }
@@ -190,7 +190,7 @@ TEST(Preview, IsThePictureAsItIsLookedAt) {
       bytes += {m, m, m, static_cast<char>(static_cast<unsigned char>(136))};
     }
     std::ofstream(folder / "picture.hdr", std::ios::binary) << bytes;
-    return make_preview(folder / "picture.hdr", {}, 4, kGoOn);
+    return make_preview(folder / "picture.hdr", {}, {4}, kGoOn);
   };
   const test::Picture picture = test::make_picture(kWidth, kHeight, [&](int, int i, int j) {
     return static_cast<unsigned char>(mantissa(i, j)) / 4.0;  // by its EXPOSURE
@@ -210,7 +210,7 @@ TEST(Preview, ComesBackFromItsFile) {
   const test::TemporaryFolder folder;
   const Preview preview = preview_of(test::make_noisy_picture(64, 32, 5), 20);
   ASSERT_TRUE(write_preview(preview, MapFormat::exr_float, folder / "small.exr"));
-  const auto again = make_preview(folder / "small.exr", {}, 20, kGoOn);
+  const auto again = make_preview(folder / "small.exr", {}, {20}, kGoOn);
   ASSERT_TRUE(again);
   EXPECT_EQ(again->planes, preview.planes);
 }
@@ -218,7 +218,7 @@ TEST(Preview, ComesBackFromItsFile) {
 TEST(Preview, StopsWhenAskedTo) {
   const test::TemporaryFolder folder;
   test::write_picture(test::make_noisy_picture(64, 32, 6), MapFormat::hdr, folder / "a.hdr");
-  const auto preview = make_preview(folder / "a.hdr", {}, 20, std::atomic<bool>(true));
+  const auto preview = make_preview(folder / "a.hdr", {}, {20}, std::atomic<bool>(true));
   ASSERT_FALSE(preview);
   EXPECT_EQ(preview.error().code, ErrorCode::interrupted);
 }

@@ -14,6 +14,7 @@
 #include "sphere/coefficients.h"
 #include "sphere/frame.h"
 #include "sphere/irradiance.h"
+#include "sphere/layout.h"
 
 namespace shoal::viz {
 
@@ -49,8 +50,9 @@ struct Panorama {
   std::string variant;         // empty: as it was projected
   std::filesystem::path file;  // where its pixels are, the painted ones of an entry without a file;
                                // empty where nobody says
-  std::string recipe;          // what they can be painted of where there is no file: an entry of a
-                               // manifest, less its braces and name; empty where they cannot
+  Layout layout = Layout::equirect;  // of the file, where the store says another one
+  std::string recipe;  // what they can be painted of where there is no file: an entry of a
+                       // manifest, less its braces and name; empty where they cannot
   Quantity quantity = Quantity::radiance;
   Coefficients coefficients;  // of `quantity`, native frame, linear Rec.709
   std::optional<PixelFigures> pixels;

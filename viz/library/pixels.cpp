@@ -45,14 +45,20 @@ Result<Pixels> take_line(const std::string& line, const fs::path& file) {
 }
 
 void preview_batch(const fs::path& shoal, std::span<const std::string> files, int width,
-                   std::vector<Result<Pixels>>& previews) {
+                   Layout layout, std::vector<Result<Pixels>>& previews) {
   const auto fail_all = [&](const Error& error) {
     for (std::size_t i = 0; i < files.size(); ++i) previews.emplace_back(error);
   };
   auto folder = TemporaryFolder::make();
   if (!folder) return fail_all(folder.error());
-  std::vector<std::string> arguments{
-      "preview", "--width", std::to_string(width), "-o", folder->path().string(), "--"};
+  std::vector<std::string> arguments{"preview",
+                                     "--width",
+                                     std::to_string(width),
+                                     "--layout",
+                                     std::string(name_of(layout)),
+                                     "-o",
+                                     folder->path().string(),
+                                     "--"};
   arguments.insert(arguments.end(), files.begin(), files.end());
   auto finished = run_program(shoal, arguments);
   if (!finished) return fail_all(finished.error());
@@ -66,7 +72,8 @@ void preview_batch(const fs::path& shoal, std::span<const std::string> files, in
 
 }  // namespace
 
-std::vector<Result<Pixels>> load_previews(const std::vector<fs::path>& files, int width) {
+std::vector<Result<Pixels>> load_previews(const std::vector<fs::path>& files, int width,
+                                          Layout layout) {
   const auto shoal = find_shoal();
   if (!shoal) return {files.size(), Result<Pixels>(shoal.error())};
   std::vector<std::string> paths;
@@ -74,7 +81,7 @@ std::vector<Result<Pixels>> load_previews(const std::vector<fs::path>& files, in
   std::vector<Result<Pixels>> previews;
   for (const Range& batch : command_line_batches(paths)) {
     preview_batch(*shoal, std::span(paths).subspan(batch.begin, batch.end - batch.begin), width,
-                  previews);
+                  layout, previews);
   }
   return previews;
 }
@@ -83,7 +90,7 @@ void PixelCache::expect(std::vector<std::size_t> panoramas) { expected_ = std::m
 
 void PixelCache::prepare(std::span<const std::size_t> panoramas, int width) {
   // Variants share their panorama's file or recipe.
-  std::map<std::string, std::vector<std::size_t>> files;
+  std::map<Layout, std::map<std::string, std::vector<std::size_t>>> files;
   std::map<std::string, std::vector<std::size_t>> recipes;
   for (const std::size_t panorama : panoramas) {
     if (const auto known = entries_.find({panorama, width, Lying::as_in_file});
@@ -93,7 +100,7 @@ void PixelCache::prepare(std::span<const std::size_t> panoramas, int width) {
     }
     const Panorama& wanted = library_.panoramas[panorama];
     if (!wanted.file.empty()) {
-      files[wanted.file.string()].push_back(panorama);
+      files[wanted.layout][wanted.file.string()].push_back(panorama);
     } else if (!wanted.recipe.empty()) {
       recipes[wanted.recipe].push_back(panorama);
     } else {
@@ -102,9 +109,11 @@ void PixelCache::prepare(std::span<const std::size_t> panoramas, int width) {
     }
   }
   if (files.empty() && recipes.empty()) return;
-  take(files, width, [](const std::vector<std::string>& texts, int size) {
-    return load_previews({texts.begin(), texts.end()}, size);
-  });
+  for (const auto& [layout, users] : files) {
+    take(users, width, [&layout](const std::vector<std::string>& texts, int size) {
+      return load_previews({texts.begin(), texts.end()}, size, layout);
+    });
+  }
   take(recipes, width, paint);
   make_room(std::max(kKeptEntries, panoramas.size()));
 }

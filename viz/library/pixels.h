@@ -31,9 +31,9 @@ struct Pixels {
 
 // The panoramas at `width` x width/2 texels, each the mean of those it covers, in the order asked
 // for; an Error where one cannot be read. All of them are made by one run of `shoal preview`, with
-// all processors.
+// all processors. `layout`: of those files that do not say themselves what they are.
 [[nodiscard]] std::vector<Result<Pixels>> load_previews(
-    const std::vector<std::filesystem::path>& files, int width);
+    const std::vector<std::filesystem::path>& files, int width, Layout layout = Layout::equirect);
 
 // Which way pixels lie: turned as the light is, to be looked at, or as in the file, exact texels
 // for who turns what he does with them.

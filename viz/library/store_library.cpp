@@ -167,6 +167,14 @@ std::filesystem::path pixels_of(const Row& row, const std::filesystem::path& fol
   return file.empty() && !picture.empty() ? folder / picture : std::filesystem::path(file);
 }
 
+// The format ends with the layout, behind a comma, where that is not equirect.
+Layout layout_of(const std::string& format) {
+  const std::size_t comma = format.rfind(", ");
+  if (comma == format.npos) return Layout::equirect;
+  const Result<Layout> layout = parse_layout(std::string_view(format).substr(comma + 2));
+  return layout ? *layout : Layout::equirect;
+}
+
 Status take_item(const Row& row, const std::filesystem::path& folder, Library& library) {
   const std::string name = row.text(0);
   const std::string status = row.text(1);
@@ -181,6 +189,7 @@ Status take_item(const Row& row, const std::filesystem::path& folder, Library& l
   Panorama panorama;
   panorama.name = name;
   panorama.file = pixels_of(row, folder);
+  panorama.layout = layout_of(row.text(4));
   if (panorama.file.empty()) panorama.recipe = recipe_of(row.text(24));
   SHOAL_ASSIGN_OR_RETURN(radiance, radiance_from(row, name));
   panorama.coefficients = std::move(radiance);

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "made_library.h"
 #include "sphere/turns.h"
 
@@ -117,6 +119,26 @@ TEST_F(LibraryTest, PaintsWhatHasNoFile) {
   }
   EXPECT_TRUE(cache.get(4, 64).empty());
   EXPECT_THAT(cache.why_empty(4), HasSubstr("directional"));
+}
+
+// An angular map whose centre is red and whose rim is blue: in the preview, the same as an equirect
+// picture, red is in the middle.
+TEST_F(LibraryTest, ShowsOtherLayoutsAsTheyLie) {
+  const auto picture = shoal::test::make_picture(64, 64, [](int c, int i, int j) {
+    const bool is_front = std::hypot(i - 31.5, j - 31.5) < 12;
+    return c == (is_front ? 0 : 2) ? 1.0 : 0.0;
+  });
+  test::write_picture(picture, MapFormat::exr_float, folder / "probe.exr");
+  Library library;
+  library.panoramas.resize(1);
+  library.panoramas[0].file = folder / "probe.exr";
+  library.panoramas[0].layout = Layout::angular;
+  PixelCache cache(library);
+  const Pixels& pixels = cache.get(0, 32);
+  ASSERT_EQ(pixels.width, 32);
+  EXPECT_EQ(pixels.at(8, 16)[0], 1.0F);
+  EXPECT_EQ(pixels.at(8, 0)[2], 1.0F);
+  EXPECT_EQ(pixels.at(0, 16)[0], 0.0F) << "up is half way to the rim";
 }
 
 // Whatever the number of files, each batch fits on a command line, in order and without gaps.
