@@ -11,8 +11,18 @@
 namespace shoal {
 namespace {
 
-// More than this many warnings would hide everything else; the store has them all.
-constexpr std::size_t kMaxWarnings = 20;
+// More than this many lines would hide everything else; the store has what they say.
+constexpr std::size_t kMaxNotes = 20;
+
+void print_some(Style style, std::string_view label, const std::vector<PanoramaNote>& notes) {
+  for (std::size_t i = 0; i < notes.size() && i < kMaxNotes; ++i) {
+    print_message(style, label, notes[i].panorama + ": " + notes[i].text);
+  }
+  if (notes.size() > kMaxNotes) {
+    print_message(style, label,
+                  fmt::format("and {} more; the store has them all", notes.size() - kMaxNotes));
+  }
+}
 
 void print_line(std::string_view line) { fmt::print(stderr, "{}\n", line); }
 
@@ -25,14 +35,11 @@ std::string counted(std::int64_t count, std::string_view what) {
 void print_error(const Error& error) { print_message(Style::red, "error:", error.text()); }
 
 void print_warnings(const std::vector<PanoramaNote>& warnings) {
-  for (std::size_t i = 0; i < warnings.size() && i < kMaxWarnings; ++i) {
-    print_message(Style::yellow, "warning:", warnings[i].panorama + ": " + warnings[i].text);
-  }
-  if (warnings.size() > kMaxWarnings) {
-    print_message(
-        Style::yellow, "warning:",
-        fmt::format("and {} more; the store has them all", warnings.size() - kMaxWarnings));
-  }
+  print_some(Style::yellow, "warning:", warnings);
+}
+
+void print_notes(const std::vector<PanoramaNote>& notes) {
+  print_some(Style::bold, "note:", notes);
 }
 
 void print_failures(const std::vector<PanoramaNote>& failures) {

@@ -14,6 +14,9 @@ void print_error(const Error& error);
 // "warning: NAME: text" a line, the first few of many.
 void print_warnings(const std::vector<PanoramaNote>& warnings);
 
+// "note: NAME: text" a line, as many.
+void print_notes(const std::vector<PanoramaNote>& notes);
+
 // "failed: text" a line, all of them.
 void print_failures(const std::vector<PanoramaNote>& failures);
 

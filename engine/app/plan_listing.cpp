@@ -4,6 +4,7 @@
 
 #include "app/commands.h"
 #include "app/messages.h"
+#include "batch/input_files.h"
 #include "core/terminal.h"
 
 namespace shoal {
@@ -19,6 +20,14 @@ std::string_view verb(ItemWork work) {
       return "project";
   }
   return "";
+}
+
+// ", LAYOUT" where it is known, before any file is opened, not to be equirect.
+std::string layout_of(const PanoramaEntry& entry) {
+  const Layout layout = entry.settings->projection.layout;
+  if (entry.file.empty() || layout == Layout::equirect) return "";
+  if (!is_one_file(entry)) return fmt::format(", {}", name_of(Layout::cube_faces));
+  return layout == Layout::automatic ? "" : fmt::format(", {}", name_of(layout));
 }
 
 PlanOptions plan_options(const ManifestOptions& options) {
@@ -38,6 +47,10 @@ Result<Plan> plan_against_store(const Manifest& manifest, const ManifestOptions&
   return make_plan(manifest, is_first ? nullptr : &*store, plan_options(options));
 }
 
+std::string reason_of(const PlannedItem& item) {
+  return std::string(item.reason) + layout_of(*item.entry);
+}
+
 int list_plan(const Manifest& manifest, const ManifestOptions& options) {
   const Result<Plan> plan = plan_against_store(manifest, options);
   if (!plan) {
@@ -45,7 +58,7 @@ int list_plan(const Manifest& manifest, const ManifestOptions& options) {
     return kExitUsage;
   }
   for (const PlannedItem& item : plan->items) {
-    fmt::print("{:<8} {}  ({})\n", verb(item.work), printable(item.entry->name), item.reason);
+    fmt::print("{:<8} {}  ({})\n", verb(item.work), printable(item.entry->name), reason_of(item));
   }
   fmt::print("{} to project, {} to write files of, {} up to date; output in {}\n",
              plan->count(ItemWork::all), plan->count(ItemWork::outputs),

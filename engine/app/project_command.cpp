@@ -41,6 +41,7 @@ class OrderedTable {
 
   [[nodiscard]] const std::vector<PanoramaNote>& failures() const { return failures_; }
   [[nodiscard]] const std::vector<PanoramaNote>& warnings() const { return warnings_; }
+  [[nodiscard]] const std::vector<PanoramaNote>& layouts() const { return layouts_; }
   [[nodiscard]] const Status& write_status() const { return write_status_; }
 
  private:
@@ -51,6 +52,7 @@ class OrderedTable {
       return;
     }
     for (const std::string& warning : result->warnings) warnings_.push_back({file, warning});
+    if (!result->recognised_layout.empty()) layouts_.push_back({file, result->recognised_layout});
     const Frame frame = choice_.frame.value_or(Frame{});
     const Coefficients radiance = to_frame(result->radiance, frame);
     for (const Quantity quantity : choice_.quantities) {
@@ -70,7 +72,12 @@ class OrderedTable {
   Status write_status_;
   std::vector<PanoramaNote> failures_;
   std::vector<PanoramaNote> warnings_;
+  std::vector<PanoramaNote> layouts_;  // that were recognised
 };
+
+bool is_for_programs(const ComputeChoice& choice) {
+  return !choice.formats.empty() && choice.formats.front() == TableFormat::json;
+}
 
 Status write_to_stdout(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size()) return {};
@@ -108,6 +115,7 @@ int project_files(const std::vector<std::string>& files, const ComputeChoice& ch
   if (written) {
     if (auto committed = writer.commit(); !committed) written = std::move(committed).error();
   }
+  if (!is_for_programs(choice)) print_notes(table.layouts());
   print_warnings(table.warnings());
   print_failures(table.failures());
   if (!written) print_error(written.error());

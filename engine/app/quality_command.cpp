@@ -105,6 +105,12 @@ Result<QualityRecord> figures_of(const std::string& file, const Projection& proj
   return record;
 }
 
+// What is to be said of a picture besides its figures.
+struct PictureWords {
+  std::string layout;
+  std::vector<std::string> warnings;
+};
+
 // Prints what the workers find in the order of the files, as soon as that is possible.
 class OrderedFigures {
  public:
@@ -114,9 +120,9 @@ class OrderedFigures {
     if (json_) fmt::print("{{\n\"schema\": \"shoal/quality\",\n\"version\": 1,\n\"records\": [");
   }
 
-  void take(std::size_t index, Result<QualityRecord> result, std::vector<std::string> warnings) {
+  void take(std::size_t index, Result<QualityRecord> result, PictureWords words) {
     const std::scoped_lock lock(mutex_);
-    results_[index] = {std::move(result), std::move(warnings)};
+    results_[index] = {std::move(result), std::move(words)};
     for (; next_ < results_.size() && results_[next_]; ++next_) {
       print(files_[next_], *results_[next_]);
       results_[next_].reset();
@@ -129,13 +135,16 @@ class OrderedFigures {
 
   [[nodiscard]] const std::vector<PanoramaNote>& failures() const { return failures_; }
   [[nodiscard]] const std::vector<PanoramaNote>& warnings() const { return warnings_; }
+  // That were recognised; none for programs.
+  [[nodiscard]] const std::vector<PanoramaNote>& layouts() const { return layouts_; }
 
  private:
-  using Outcome = std::pair<Result<QualityRecord>, std::vector<std::string>>;
+  using Outcome = std::pair<Result<QualityRecord>, PictureWords>;
 
   void print(const std::string& file, const Outcome& outcome) {
-    const auto& [record, warnings] = outcome;
-    for (const std::string& warning : warnings) warnings_.push_back({file, warning});
+    const auto& [record, words] = outcome;
+    for (const std::string& warning : words.warnings) warnings_.push_back({file, warning});
+    if (!json_ && !words.layout.empty()) layouts_.push_back({file, words.layout});
     if (!record) {
       const bool interrupted = record.error().code == ErrorCode::interrupted;
       if (!interrupted) failures_.push_back({file, record.error().text()});
@@ -155,6 +164,7 @@ class OrderedFigures {
   std::int64_t printed_ = 0;
   std::vector<PanoramaNote> failures_;
   std::vector<PanoramaNote> warnings_;
+  std::vector<PanoramaNote> layouts_;
 };
 
 int print_quality(const QualityCommand& command) {
@@ -174,12 +184,14 @@ int print_quality(const QualityCommand& command) {
   steps.finish = [&](std::size_t index, PanoramaProjection* projection, Status status) {
     auto found = status ? projection->finish() : Result<Projection>(std::move(status).error());
     if (!found) return figures.take(index, std::move(found).error(), {});
-    figures.take(index, figures_of(command.files[index], *found, *choice, stop), found->warnings);
+    figures.take(index, figures_of(command.files[index], *found, *choice, stop),
+                 {found->recognised_layout, found->warnings});
   };
   // Brute force spreads one panorama over the threads.
   run_jobs(command.files.size(), choice->brute_force_rows > 0 ? 1 : choice->compute.threads, stop,
            pixels_done, steps);
   figures.end();
+  print_notes(figures.layouts());
   print_warnings(figures.warnings());
   print_failures(figures.failures());
   if (stop) return kExitInterrupted;

@@ -24,7 +24,7 @@ struct RunCommand {
 void explain_plan(const Plan& plan) {
   for (const PlannedItem& item : plan.items) {
     if (item.work != ItemWork::none) {
-      fmt::print(stderr, "runs: {} ({})\n", printable(item.entry->name), item.reason);
+      fmt::print(stderr, "runs: {} ({})\n", printable(item.entry->name), reason_of(item));
     }
   }
 }

@@ -37,6 +37,10 @@ std::optional<FacePaths> faces_for(const std::filesystem::path& path, Layout ask
   return std::nullopt;
 }
 
+std::string_view sign_of(EnvironmentMap environment) {
+  return environment == EnvironmentMap::cube ? "its envmap attribute" : "the header of its file";
+}
+
 Layout layout_of(EnvironmentMap environment) {
   switch (environment) {
     case EnvironmentMap::cube:
@@ -76,7 +80,13 @@ void choose_layout(Layout asked, LaidOutPicture& picture) {
   picture.layout = layout_of(environment);
   const bool agrees = asked == Layout::automatic || asked == picture.layout ||
                       asked == Layout::equirect;  // the default, so perhaps not asked for
-  if (agrees) return;
+  if (agrees) {
+    const bool is_news = asked != picture.layout && picture.layout != Layout::equirect;
+    if (!is_news) return;
+    picture.recognised =
+        fmt::format("it is {} by {}", name_of(picture.layout), sign_of(environment));
+    return;
+  }
   picture.notes.push_back(fmt::format("the file says that it is {}, so it was not taken for {}",
                                       name_of(picture.layout), name_of(asked)));
 }
@@ -98,6 +108,11 @@ Result<LaidOutPicture> open_picture(const std::filesystem::path& path, const Rea
     picture.source = std::move(source);
     picture.layout = Layout::cube_faces;
     picture.files.assign(faces->begin(), faces->end());
+    if (asked == Layout::automatic) {
+      picture.recognised =
+          fmt::format("it is {} by the names of six files, {} to {}", name_of(picture.layout),
+                      faces->front().filename().string(), faces->back().filename().string());
+    }
     return picture;
   }
   if (asked == Layout::cube_faces) return no_face(path);

@@ -17,6 +17,9 @@ struct LaidOutPicture {
   Layout layout = Layout::equirect;          // never automatic
   std::vector<std::filesystem::path> files;  // one, or six, each a sixth of the rows
   std::vector<std::string> notes;            // what was guessed, or not followed; sentences
+  // What the file or its name says of the layout where nobody asked for it and it is not equirect:
+  // "it is cube-openexr by its envmap attribute". Else empty.
+  std::string recognised;
 };
 
 // Opens a picture of the layout asked for. What a file says itself wins: EXR's envmap attribute, a

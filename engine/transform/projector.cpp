@@ -217,7 +217,7 @@ std::unique_ptr<PanoramaProjection> PanoramaProjection::open(PaintedPanorama pan
   Impl& impl = *projection->impl_;
   impl.path = panorama.name;
   impl.settings = settings;
-  impl.picture = {std::move(panorama.source), Layout::equirect, {panorama.name}, {}};
+  impl.picture = {std::move(panorama.source), Layout::equirect, {panorama.name}, {}, {}};
   impl.sums = std::make_unique<EquirectSums>(impl.info(), settings, tables);
   impl.lights = std::move(panorama.lights);
   impl.watch_bright();
@@ -273,6 +273,7 @@ Result<Projection> PanoramaProjection::finish() {
   PictureTotals totals = impl.sums->totals();
   Projection result;
   result.grid = grid_of(info());
+  result.recognised_layout = impl.picture.recognised;
   result.format = info().format;
   if (impl.picture.layout != Layout::equirect) {
     result.format += ", " + std::string(name_of(impl.picture.layout));

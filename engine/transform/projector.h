@@ -39,6 +39,8 @@ struct Projection {
   double solid_angle = 0.0;                   // what the weights sum to
   PixelReport pixels;
   std::optional<Sun> sun;  // where one was asked for and found; linear Rec.709
+  // What the file or its name said of its layout, which is not equirect; else empty. A sentence.
+  std::string recognised_layout;
   std::vector<std::string> warnings;
 };
 

@@ -86,8 +86,8 @@ def write_hdr(path, seed, width=32, height=16):
     path.write_bytes(rgbe_bytes(width, height, bytes(texels)))
 
 
-def write_exr(path, seed, width=32, height=16):
-    """OpenEXR, float, not compressed: one scanline a chunk."""
+def write_exr(path, seed, width=32, height=16, envmap=None):
+    """OpenEXR, float, not compressed: one scanline a chunk. envmap: 0 is LATLONG, 1 CUBE."""
     def attribute(name, kind, data):
         return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<i", len(data)) + data
     channels = b"".join(name + b"\0" + struct.pack("<iBxxxii", 2, 0, 1, 1) for name in (b"B", b"G", b"R"))
@@ -101,6 +101,8 @@ def write_exr(path, seed, width=32, height=16):
     header += attribute("pixelAspectRatio", "float", struct.pack("<f", 1))
     header += attribute("screenWindowCenter", "v2f", struct.pack("<ff", 0, 0))
     header += attribute("screenWindowWidth", "float", struct.pack("<f", 1))
+    if envmap is not None:
+        header += attribute("envmap", "envmap", bytes([envmap]))
     header += b"\0"
     noise = random.Random(seed)
     row_size = 3 * width * 4
