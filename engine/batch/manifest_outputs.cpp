@@ -132,14 +132,6 @@ Status check_linear(const EntrySettings& settings, const Variant& variant) {
   SHOAL_RETURN_IF_ERROR(combined_matrix(colour_of(settings, variant)));
   SHOAL_RETURN_IF_ERROR(turn_of(settings, variant));
   for (const AnalyticLight& light : settings.lights) SHOAL_RETURN_IF_ERROR(check_light(light));
-  const Layout layout = settings.projection.layout;
-  if (settings.projection.sun.asked() && layout != Layout::equirect &&
-      layout != Layout::automatic) {
-    return Error{
-        ErrorCode::usage,
-        fmt::format("a sun can only be found in equirect pictures, not in {}", name_of(layout)), "",
-        "leave sun out"};
-  }
   return {};
 }
 

@@ -1,13 +1,7 @@
 #include "sphere/sun.h"
 
-#include <cmath>
-#include <numbers>
-
 namespace shoal {
 
-DiskLight Sun::disk() const {
-  const double sine = std::sin(angular_radius);
-  return {direction, angular_radius, irradiance / (std::numbers::pi * sine * sine)};
-}
+DiskLight Sun::disk() const { return {direction, angular_radius, mean_radiance()}; }
 
 }  // namespace shoal

@@ -22,7 +22,8 @@ struct Sun {
   std::int64_t texel_count = 0;
 
   [[nodiscard]] glm::dvec3 mean_radiance() const { return flux / solid_angle; }
-  // The uniform disk of that direction, radius and irradiance.
+  // The uniform disk of that direction, radius and flux: what is put back is what was taken. A
+  // facing surface gets its irradiance but for O(radius^2) of it.
   [[nodiscard]] DiskLight disk() const;
 
   friend bool operator==(const Sun&, const Sun&) = default;

@@ -24,7 +24,7 @@ struct ProjectionSettings {
   // Of pictures that do not say themselves what they are, as an EXR's envmap attribute does.
   Layout layout = Layout::equirect;
   PixelPolicy pixels;
-  SunSettings sun;  // of equirect pictures
+  SunSettings sun;
   Arithmetic arithmetic = Arithmetic::kernels;
 
   [[nodiscard]] int highest_degree() const { return std::max(degree, quality_degree); }

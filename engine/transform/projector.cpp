@@ -31,12 +31,6 @@ Result<std::unique_ptr<PictureSums>> sums_for(const LaidOutPicture& picture,
     sums = std::make_unique<EquirectSums>(info, settings, tables);
     return sums;
   }
-  if (settings.sun.asked()) {
-    return Error{ErrorCode::usage,
-                 "a sun can only be found in equirect pictures, not in the layout " +
-                     std::string(name_of(picture.layout)),
-                 picture.files.front().string(), "leave sun out"};
-  }
   auto geometry = TexelGeometry::create(picture.layout, info.width, info.height);
   if (!geometry) {
     geometry.error().where = picture.files.front().string();
@@ -103,8 +97,8 @@ void PanoramaProjection::Impl::watch_bright() {
 // After the last band.
 BrightChanges PanoramaProjection::Impl::change_bright() {
   if (!bright) return {};
-  const TexelPlaces places{info().width, info().height,
-                           [this](int row, int column) { return sums->texel(row, column); }};
+  const TexelPlaces places{[this](int row, int column) { return sums->texel(row, column); },
+                           {picture.layout, info().width, info().height}};
   BrightChanges changes = bright_changes(bright->brightest(), settings, places);
   sums->change(changes.changes);
   return changes;
@@ -273,13 +267,13 @@ Result<Projection> PanoramaProjection::finish() {
   PictureTotals totals = impl.sums->totals();
   Projection result;
   result.grid = grid_of(info());
-  result.recognised_layout = impl.picture.recognised;
   result.format = info().format;
   if (impl.picture.layout != Layout::equirect) {
     result.format += ", " + std::string(name_of(impl.picture.layout));
   }
   result.quadrature = totals.quadrature;
   result.solid_angle = totals.solid_angle;
+  result.recognised_layout = impl.picture.recognised;
   result.warnings = info().warnings;
   std::ranges::copy(impl.picture.notes, std::back_inserter(result.warnings));
   result.pixels = impl.report(totals);

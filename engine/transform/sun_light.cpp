@@ -14,51 +14,47 @@ namespace {
 // The region of the first of some texels.
 class RegionSearch {
  public:
-  RegionSearch(const std::vector<BrightTexel>& texels, std::size_t count, int width, int height)
-      : texels_(texels), width_(width), height_(height) {
-    for (std::size_t i = 0; i < count; ++i)
-      index_by_place_[place(texels[i].row, texels[i].column)] = i;
+  RegionSearch(const std::vector<BrightTexel>& texels, std::size_t count,
+               const TexelNeighbours& neighbours)
+      : texels_(texels), neighbours_(neighbours) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const TexelIndex index{texels[i].row, texels[i].column};
+      index_by_place_[place(index)] = i;
+      if (const int point = neighbours.common_point(index)) by_point_[point].push_back(index);
+    }
   }
 
   // Ascending.
   std::vector<std::size_t> region_of_first() {
-    visit(texels_[0].row, texels_[0].column);
+    visit({texels_[0].row, texels_[0].column});
     for (std::size_t next = 0; next < region_.size(); ++next) {
-      const auto [row, column] =
-          std::pair(texels_[region_[next]].row, texels_[region_[next]].column);
-      for (int i = std::max(row - 1, 0); i <= std::min(row + 1, height_ - 1); ++i) {
-        for (const int j : {column - 1, column, column + 1}) visit(i, (j + width_) % width_);
-      }
-      if (row == 0 || row == height_ - 1) visit_row(row);
+      const BrightTexel& texel = texels_[region_[next]];
+      const TexelIndex index{texel.row, texel.column};
+      for (const TexelIndex& neighbour : neighbours_.of(index)) visit(neighbour);
+      // Once, however many of them there are.
+      const auto point = by_point_.extract(neighbours_.common_point(index));
+      if (point.empty()) continue;
+      for (const TexelIndex& neighbour : point.mapped()) visit(neighbour);
     }
     std::ranges::sort(region_);
     return std::move(region_);
   }
 
  private:
-  [[nodiscard]] std::int64_t place(int row, int column) const {
-    return std::int64_t{row} * width_ + column;
+  static std::int64_t place(const TexelIndex& index) {
+    return (std::int64_t{index.row} << 32) + index.column;
   }
 
-  void visit(int row, int column) {
-    const auto found = index_by_place_.extract(place(row, column));
+  void visit(const TexelIndex& index) {
+    const auto found = index_by_place_.extract(place(index));
     if (!found.empty()) region_.push_back(found.mapped());
   }
 
-  // All texels of the first or of the last row touch in a pole.
-  void visit_row(int row) {
-    bool& done = row == 0 ? top_done_ : bottom_done_;
-    if (std::exchange(done, true)) return;
-    for (int column = 0; column < width_; ++column) visit(row, column);
-  }
-
   const std::vector<BrightTexel>& texels_;
-  const int width_;
-  const int height_;
+  const TexelNeighbours& neighbours_;
   std::unordered_map<std::int64_t, std::size_t> index_by_place_;  // those not visited
+  std::unordered_map<int, std::vector<TexelIndex>> by_point_;  // those that touch in one direction
   std::vector<std::size_t> region_;
-  bool top_done_ = false;
-  bool bottom_done_ = false;
 };
 
 Result<float> sun_level(const BrightestTexels& bright, const SunSettings& settings) {
@@ -98,7 +94,7 @@ Result<FoundSun> find_sun(const BrightestTexels& bright, const SunSettings& sett
                  "", ""};
   }
   FoundSun found;
-  found.members = RegionSearch(texels, count, places.width, places.height).region_of_first();
+  found.members = RegionSearch(texels, count, places.neighbours).region_of_first();
   Sun& sun = found.sun;
   sun.level = level;
   sun.texel_count = static_cast<std::int64_t>(found.members.size());

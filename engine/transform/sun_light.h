@@ -12,6 +12,7 @@
 #include "core/result.h"
 #include "sphere/sun.h"
 #include "sphere/texel_mappings.h"
+#include "sphere/texel_neighbours.h"
 #include "transform/bright_texels.h"
 
 namespace shoal {
@@ -34,15 +35,14 @@ struct SunSettings {
   friend bool operator==(const SunSettings&, const SunSettings&) = default;
 };
 
-// An equirect picture's texels by row and column.
+// A picture's texels by row and column, and which of them touch.
 struct TexelPlaces {
-  int width = 0;
-  int height = 0;
   std::function<Texel(int row, int column)> texel;
+  TexelNeighbours neighbours;
 };
 
 // The sun, and which of `bright` its texels are, in ascending order. The region is that of the
-// brightest texel: texels touch with their sides or corners, over the seam and over the poles.
+// brightest texel; which texels touch says sphere/texel_neighbours.h.
 // Colours are in the file's own; `share` is left for whoever knows the rest.
 struct FoundSun {
   Sun sun;

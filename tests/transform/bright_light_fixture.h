@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <string>
 #include <thread>
 #include <utility>
@@ -17,6 +18,8 @@
 #include "transform/projector.h"
 
 namespace shoal::test {
+
+constexpr double kPi = std::numbers::pi;
 
 class BrightLight : public testing::Test {
  protected:

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <numbers>
 #include <random>
 #include <thread>
 #include <tuple>
@@ -15,18 +14,8 @@
 #include "support/every_target.h"
 #include "support/made_picture.h"
 
-namespace shoal {
+namespace shoal::test {
 namespace {
-
-using test::BrightLight;
-using test::clamp_at;
-using test::difference;
-using test::Picture;
-using test::same;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-
-constexpr double kPi = std::numbers::pi;
 
 // The definition: all texels in their order, to the first with which the fraction is covered.
 std::vector<BrightTexel> by_brute_force(std::vector<BrightTexel> texels, double fraction,
@@ -51,7 +40,7 @@ TEST(BrightTexels, KeepsTheSameInEveryOrderAndFromManyWorkers) {
     return 2.0 * kPi / kWidth * 2.0 * std::sin(kPi * (row + 0.5) / kHeight) *
            std::sin(kPi / (2 * kHeight));
   };
-  test::RandomNumbers random(7);
+  RandomNumbers random(7);
   std::vector<BrightTexel> all;
   for (int i = 0; i < kHeight; ++i) {
     for (int j = 0; j < kWidth; ++j) {
@@ -100,12 +89,12 @@ TEST(BrightTexels, TheThresholdIsTheFirstValueThatIsNotWithinTheFraction) {
 TEST_F(BrightLight, TheSameBitsForEveryTargetThreadCountAndBandHeight) {
   // RGBE has few mantissas, so that its texels tie.
   for (const MapFormat format : {MapFormat::exr_float, MapFormat::hdr}) {
-    const auto path = write(test::make_noisy_picture(256, 128, 5), "same", format);
+    const auto path = write(make_noisy_picture(256, 128, 5), "same", format);
     ProjectionSettings settings = clamp_at(99.5, 4);
     settings.sun = {0.002, 0.0, SunSettings::Action::replace};
     const Projection first = project(path, settings);
     EXPECT_GT(first.pixels.clamped_count, 50);
-    test::for_every_target([&] {
+    for_every_target([&] {
       for (const int rows : {0, 1, 7, 100}) {
         ReadOptions options;
         options.rows_per_band = rows;
@@ -123,7 +112,7 @@ TEST_F(BrightLight, TheSameBitsForEveryTargetThreadCountAndBandHeight) {
 // (row_moments.h), and what stays in either case: 1e-6 of the integral of |I Y_lm|, twice. Y_lm <=
 // sqrt((2l+1)/4pi).
 TEST_F(BrightLight, APercentileClampsAsItsValueDoes) {
-  const auto path = write(test::make_noisy_picture(200, 100, 3), "clamp");
+  const auto path = write(make_noisy_picture(200, 100, 3), "clamp");
   ProjectionSettings settings = clamp_at(99.2, 6);
   for (const Arithmetic arithmetic : {Arithmetic::kernels, Arithmetic::reference}) {
     settings.arithmetic = arithmetic;
@@ -158,7 +147,7 @@ TEST_F(BrightLight, ThePercentileDoesNotDependOnTheSize) {
   constexpr double k = 20.0;
   const glm::dvec3 towards = glm::normalize(glm::dvec3(0.3, -0.5, 0.7));
   for (const int height : {64, 128, 512}) {
-    const Picture picture = test::make_picture(2 * height, height, [&](int c, int i, int j) {
+    const Picture picture = make_picture(2 * height, height, [&](int c, int i, int j) {
       const double theta = kPi * (i + 0.5) / height, phi = kPi * (j + 0.5) / height;
       const glm::dvec3 w(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
                          std::cos(theta));
@@ -169,14 +158,15 @@ TEST_F(BrightLight, ThePercentileDoesNotDependOnTheSize) {
     EXPECT_NEAR(std::log(result.pixels.clamp_threshold), expected,
                 k * std::sin(std::acos(0.99)) * kPi / height)
         << height;
-    EXPECT_THAT(result.warnings, ElementsAre(HasSubstr("pixels were clamped to")));
+    EXPECT_THAT(result.warnings,
+                testing::ElementsAre(testing::HasSubstr("pixels were clamped to")));
   }
 }
 
 // Only red is clamped. Red, green and blue of the mean are (1 - r, 1, 1): its distance from white,
 // by the definition of (u', v').
 TEST_F(BrightLight, TellsHowFarTheColourMoved) {
-  const Picture picture = test::make_picture(
+  const Picture picture = make_picture(
       200, 100, [](int c, int i, int j) { return c == 0 && i == 50 && j < 20 ? 501.0 : 1.0; });
   const Projection result = project(write(picture, "red"), clamp_at(99.0));
   EXPECT_EQ(result.pixels.clamp_threshold, 1.0);
@@ -197,7 +187,7 @@ TEST_F(BrightLight, TellsHowFarTheColourMoved) {
 TEST_F(BrightLight, ClampsInOtherLayoutsToo) {
   const auto geometry = TexelGeometry::create(Layout::octahedral, 64, 64);
   ASSERT_TRUE(geometry);
-  const auto path = write(test::make_noisy_picture(64, 64, 8), "octahedral");
+  const auto path = write(make_noisy_picture(64, 64, 8), "octahedral");
   for (const Arithmetic arithmetic : {Arithmetic::kernels, Arithmetic::reference}) {
     ProjectionSettings settings = clamp_at(99.0, 4);
     settings.layout = Layout::octahedral;
@@ -255,4 +245,4 @@ TEST_F(BrightLight, ClampsWhicheverWayTheFileRuns) {
 }
 
 }  // namespace
-}  // namespace shoal
+}  // namespace shoal::test
