@@ -47,6 +47,7 @@ void add_profile_options(CLI::App& command, ProfileOptions& options) {
 }
 
 Result<std::unique_ptr<TableWriter>> profile_writer(const ProfileOptions& options,
+                                                    std::size_t panorama_count,
                                                     ComputeChoice& choice, TextSink sink) {
   if (!choice.quantities.empty() || !choice.formats.empty()) {
     return Error{ErrorCode::usage,
@@ -54,6 +55,14 @@ Result<std::unique_ptr<TableWriter>> profile_writer(const ProfileOptions& option
                  "leave --quantity and --format out"};
   }
   SHOAL_ASSIGN_OR_RETURN(profile, find_profile(options.profile));
+  if (panorama_count > 1 && profile.extension == "json") {
+    return Error{ErrorCode::usage,
+                 "the profile " + profile.name + " makes one JSON document of one panorama, but " +
+                     std::to_string(panorama_count) + " are named",
+                 "",
+                 "name one at a time; or `exports: " + profile.name +
+                     "` in a manifest writes a file for each"};
+  }
   std::vector<std::pair<std::string, std::string>> choices;
   for (const std::string& text : options.choices) {
     SHOAL_ASSIGN_OR_RETURN(pair, name_and_word(text));

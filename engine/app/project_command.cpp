@@ -123,9 +123,12 @@ int project_files(const std::vector<std::string>& files, const ComputeChoice& ch
   return table.failures().empty() && written ? kExitOk : kExitFailed;
 }
 
-Result<std::unique_ptr<TableWriter>> make_writer(const ProfileOptions& profile,
+Result<std::unique_ptr<TableWriter>> make_writer(const ProjectCommand& command,
                                                  ComputeChoice& choice) {
-  if (!profile.profile.empty()) return profile_writer(profile, choice, write_to_stdout);
+  const ProfileOptions& profile = command.profile;
+  if (!profile.profile.empty()) {
+    return profile_writer(profile, command.files.size(), choice, write_to_stdout);
+  }
   if (!profile.choices.empty()) {
     return Error{ErrorCode::usage, "--option is for --profile", "", "name the profile, too"};
   }
@@ -140,7 +143,7 @@ int project(const ProjectCommand& command) {
     print_error(choice.error());
     return kExitUsage;
   }
-  auto writer = make_writer(command.profile, *choice);
+  auto writer = make_writer(command, *choice);
   if (!writer) {
     print_error(writer.error());
     return kExitUsage;

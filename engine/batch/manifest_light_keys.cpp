@@ -41,8 +41,8 @@ void read_direction(const ManifestReader& reader, const Field& field, Light& lig
 }
 
 void read_radius(const ManifestReader& reader, const Field& field, DiskLight& light) {
-  const auto degrees = reader.number(field, kRadius);
-  if (degrees) light.angular_radius = glm::radians(*degrees);
+  // What is wrong has been told; it is not to be found wrong once more.
+  light.angular_radius = glm::radians(reader.number(field, kRadius).value_or(kRadius.maximum));
 }
 
 constexpr ManifestKeyRule<AmbientLight> kAmbientRules[] = {

@@ -29,10 +29,10 @@ struct DominantLight {
 // or 0 where that is negative. Source: Sloan, "Stupid Spherical Harmonics (SH) Tricks", GDC 2008,
 // "Extracting Dominant Light". The light is then taken off at every degree of the coefficients.
 //
-// projected + residual == radiance, coefficient by coefficient in double arithmetic, wherever
-// |projected| <= |radiance|; where the light's coefficient is the larger one, to one unit in its
-// last place, which is all that doubles of that size can hold. For this `projected` may differ from
-// project_lights of the same light by one rounding of the residual.
+// projected + residual is radiance, coefficient by coefficient, to the last bit that doubles allow:
+// equal wherever |projected| <= |radiance|; where the light's coefficient is the larger one, to one
+// unit in its last place, which is all that doubles of that size can hold. For this `projected` may
+// differ from project_lights of the same light by one rounding of the residual.
 //
 // Nothing where no direction stands out: degree 0, or a vector shorter than 1e-12 of L_00.
 // Precondition: 0 <= fit_degree; degrees above the coefficients' are not looked at.

@@ -66,6 +66,10 @@ TEST_F(ManifestLights, WhatIsWrongWithThemIsTold) {
               HasSubstr("this direction is zero"));
   EXPECT_THAT(told("{disk: {direction: [0, 1, 0], radius: 181, radiance: 1}}"),
               HasSubstr("radius must be a number of degrees of arc above 0, at most 180"));
+  EXPECT_EQ(
+      load_entry("lights: [{disk: {direction: [0, 1, 0], radius: 190, radiance: 1}}]").error_count,
+      1)
+      << "what is wrong once is told once";
   EXPECT_THAT(told("{ambient: {radiance: 1}, cosine: {}}"), HasSubstr("a light is one kind"));
   EXPECT_THAT(told("{sun: {radiance: 1}}"), HasSubstr("unknown key \"sun\" in a light"));
   EXPECT_THAT(told("{ambient: {radiance: [1, 2]}}"), HasSubstr("a number or a list of three"));

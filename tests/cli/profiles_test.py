@@ -71,6 +71,17 @@ class Profiles(ShoalTest):
             self.assertEqual(done.out, "")
             self.assertRegex(done.err, "^error: ")
 
+    def test_json_is_one_document(self):
+        files = ["a.hdr", "b.hdr"]
+        for seed, file in enumerate(files):
+            write_hdr(self.folder / file, seed)
+        done = self.expect(2, "project", "--profile", "three", *files)
+        self.assertEqual(done.out, "")
+        self.assertIn("one JSON document of one panorama, but 2 are named", done.err)
+        self.assertIn("exports: three", done.err)
+        self.assertEqual(self.expect(0, "project", "--profile", "glsl", *files).out.count("vec3 "),
+                         2 * self.expect(0, "project", "--profile", "glsl", files[0]).out.count("vec3 "))
+
     def test_a_fault_in_ones_own_is_told_with_its_place(self):
         write_hdr(self.folder / "a.hdr", 1)
         self.write("mine.yaml", MINE.replace("sign:", "sgin:"))
