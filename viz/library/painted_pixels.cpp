@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <fstream>
 #include <numbers>
 #include <regex>
@@ -16,8 +15,6 @@ namespace shoal::viz {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::string_view kUnpaintable = "directional";
 
 // Of "disk 0.1 1 0 0 5 5 5": the kind, a disk's angle, all but the ambient light's direction, and
 // the colour. Empty where it is something else.
@@ -35,7 +32,7 @@ std::string light_keys(const std::string& light) {
   std::string keys;
   if (kind == "disk") keys = fmt::format("radius: {}, ", radius * 180.0 / std::numbers::pi);
   if (kind != "ambient") keys += "direction: " + triple() + ", ";
-  keys += (kind == kUnpaintable ? "irradiance: " : "radiance: ") + triple();
+  keys += (kind == "directional" ? "irradiance: " : "radiance: ") + triple();
   return words ? fmt::format("{}: {{{}}}", kind, keys) : std::string();
 }
 
@@ -49,14 +46,11 @@ std::string lights_keys(const std::string& text) {
   return keys.empty() ? keys : "lights: [" + keys + "]";
 }
 
-bool paintable(const std::string& recipe) { return recipe.find(kUnpaintable) == std::string::npos; }
-
 Error cannot_paint(const std::string& why) { return {ErrorCode::unreadable, why, "", ""}; }
 
 std::string manifest_of(std::span<const std::string> recipes, int width) {
   std::string text = "shoal: 1\noutput: out\ndefaults: {degree: 0}\npanoramas:\n";
   for (std::size_t i = 0; i < recipes.size(); ++i) {
-    if (!paintable(recipes[i])) continue;
     text += fmt::format("  - {{name: \"{}\", {}, picture: {{size: [{}, {}]}}}}\n", i, recipes[i],
                         width, width / 2);
   }
@@ -92,18 +86,11 @@ std::string recipe_of(const std::string& parameters) {
 std::vector<Result<Pixels>> paint(std::span<const std::string> recipes, int width) {
   auto folder = TemporaryFolder::make();
   Status ready = folder ? Status() : Status(folder.error());
-  const bool some = std::ranges::any_of(recipes, paintable);
-  if (ready && some) ready = run_manifest(folder->path(), manifest_of(recipes, width));
+  if (ready) ready = run_manifest(folder->path(), manifest_of(recipes, width));
   std::vector<Result<Pixels>> pixels;
   for (std::size_t i = 0; i < recipes.size(); ++i) {
-    if (!paintable(recipes[i])) {
-      pixels.emplace_back(cannot_paint(
-          "a directional light has no picture: it is infinitely bright in one direction"));
-    } else if (!ready) {
-      pixels.emplace_back(ready.error());
-    } else {
-      pixels.push_back(read_exr(folder->path() / fmt::format("out/maps/{}.picture.exr", i)));
-    }
+    const fs::path picture = fmt::format("out/maps/{}.picture.exr", i);
+    pixels.push_back(ready ? read_exr(folder->path() / picture) : ready.error());
   }
   return pixels;
 }

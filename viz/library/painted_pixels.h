@@ -16,7 +16,7 @@ namespace shoal::viz {
 [[nodiscard]] std::string recipe_of(const std::string& parameters);
 
 // Pictures of `width` x width/2 texels, in the order asked for, by one run of `shoal run`; an Error
-// for those that cannot be painted, such as a directional light. Precondition: width >= 2.
+// for those that cannot be painted. Precondition: width >= 2.
 [[nodiscard]] std::vector<Result<Pixels>> paint(std::span<const std::string> recipes, int width);
 
 }  // namespace shoal::viz
