@@ -13,6 +13,7 @@
 #include "batch/painted_light.h"
 #include "batch/run_tables.h"
 #include "batch/scheduler.h"
+#include "batch/variant_facts.h"
 #include "batch/variant_light.h"
 #include "core/content_recorder.h"
 #include "core/input_file.h"
@@ -315,17 +316,6 @@ std::vector<PanoramaTags> tags_of(const Manifest& manifest) {
   return tags;
 }
 
-std::vector<VariantFrame> frames_of(const Manifest& manifest) {
-  std::vector<VariantFrame> frames;
-  for (const PanoramaEntry& entry : manifest.entries) {
-    for (const Variant& variant : manifest.variants) {
-      const Frame frame = frame_of(*entry.settings, variant);
-      if (frame != Frame{}) frames.push_back({entry.name, variant.name, text_of(frame)});
-    }
-  }
-  return frames;
-}
-
 // Files that were touched, but not changed: they need not be hashed again by the next run.
 Status remember_inputs(const Plan& plan, Store& store) {
   for (const PlannedItem& item : plan.items) {
@@ -347,7 +337,6 @@ Result<RunSummary> run_marked(const Manifest& manifest, const Plan& plan, Store&
                               std::atomic<bool>& stop) {
   SHOAL_RETURN_IF_ERROR(store.set_globs(expansions_of(manifest)));
   SHOAL_RETURN_IF_ERROR(store.set_tags(tags_of(manifest)));
-  SHOAL_RETURN_IF_ERROR(store.set_frames(frames_of(manifest)));
   SHOAL_RETURN_IF_ERROR(remember_inputs(plan, store));
   RunSummary summary;
   summary.up_to_date_count = plan.count(ItemWork::none);
@@ -361,6 +350,8 @@ Result<RunSummary> run_marked(const Manifest& manifest, const Plan& plan, Store&
   run.report(summary);
   if (stop) return summary;
   if (plan.unnamed_count > 0) SHOAL_RETURN_IF_ERROR(store.forget_others(names_of(manifest)));
+  SHOAL_ASSIGN_OR_RETURN(variants, variant_facts(manifest));
+  SHOAL_RETURN_IF_ERROR(store.set_variants(variants));
   SHOAL_ASSIGN_OR_RETURN(tables, write_run_tables(manifest, store));
   summary.tables = std::move(tables.paths);
   summary.missing_count = tables.missing_count;

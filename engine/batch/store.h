@@ -20,6 +20,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <glm/mat3x3.hpp>
 #include <memory>
 #include <optional>
 #include <span>
@@ -136,11 +137,16 @@ struct PanoramaTags {
   std::span<const std::string> tags;
 };
 
-// The frame of a panorama's rows in the tables, for those who read a table that does not say it.
-struct VariantFrame {
-  std::string_view panorama;
-  std::string_view variant;
-  std::string frame;  // text_of
+// What a run makes of the light of a panorama's pixels in a variant, but for its window.
+struct VariantFacts {
+  std::string panorama;
+  std::string variant;
+  Frame frame;             // of the tables' rows
+  glm::dmat3 colour{1.0};  // new (r, g, b) = colour * (r, g, b), linear Rec.709
+  glm::dmat3 turn{1.0};    // what stood at x stands at turn * x, native frame
+  bool is_whole = true;    // that is all; else light was added or taken out besides
+
+  friend bool operator==(const VariantFacts&, const VariantFacts&) = default;
 };
 
 class Store {
@@ -202,10 +208,9 @@ class Store {
   Status set_tags(std::span<const PanoramaTags> panoramas);
   Result<std::vector<std::string>> tags_of(std::string_view panorama);
 
-  // Likewise for frames; those that are not named are native.
-  Status set_frames(std::span<const VariantFrame> frames);
-  Result<std::string> frame_of(std::string_view panorama,
-                               std::string_view variant);  // "" if native
+  // Likewise for variants; those that are not named are native and have their pixels' light.
+  Status set_variants(std::span<const VariantFacts> variants);
+  Result<std::vector<VariantFacts>> variants();  // by panorama and variant
 
   // Short facts, such as a hash of what the tables were made from; empty where there is none.
   Status set_property(std::string_view name, std::string_view value);

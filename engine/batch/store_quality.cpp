@@ -1,13 +1,12 @@
 #include "batch/store_quality.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "batch/store_numbers.h"
 
 namespace shoal {
 namespace {
@@ -24,22 +23,6 @@ std::optional<double> figure(const SqlStatement& row, int column) {
 
 glm::dvec3 triple(const SqlStatement& row, int column) {
   return {row.real(column), row.real(column + 1), row.real(column + 2)};
-}
-
-std::string joined(const std::vector<double>& values) {
-  std::string text;
-  for (const double value : values) text += fmt::format("{:.17g} ", value);
-  return text;
-}
-
-std::vector<double> split(const std::string& text) {
-  std::vector<double> values;
-  const char* at = text.c_str();
-  for (char* end = nullptr;; at = end) {
-    const double value = std::strtod(at, &end);
-    if (end == at) return values;
-    values.push_back(value);
-  }
 }
 
 }  // namespace

@@ -2,14 +2,15 @@
 #include <string>
 
 #include "batch/store_connection.h"
+#include "batch/store_numbers.h"
 #include "batch/store_outputs.h"
 #include "core/content_hash.h"
 
 namespace shoal {
 namespace {
 
-// The properties that tell which tags and frames stand in the store.
-constexpr std::string_view kFramesProperty = "frames_hash";
+// The properties that tell which tags and variants stand in the store.
+constexpr std::string_view kVariantsProperty = "variants_hash";
 constexpr std::string_view kTagsProperty = "tags_hash";
 
 constexpr const char* kSelectRunOutputs =
@@ -32,12 +33,31 @@ std::string hash_of(std::span<const PanoramaTags> panoramas) {
   return hasher.digest();
 }
 
-std::string hash_of(std::span<const VariantFrame> frames) {
+std::string rows_of(const glm::dmat3& matrix) {
+  std::vector<double> rows;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) rows.push_back(matrix[column][row]);
+  }
+  return joined(rows);
+}
+
+// The identity where the text is not that of a matrix.
+glm::dmat3 matrix_of(const std::string& text) {
+  glm::dmat3 matrix(1.0);
+  const std::vector<double> rows = split(text);
+  for (std::size_t i = 0; rows.size() == 9 && i < 9; ++i) matrix[i % 3][i / 3] = rows[i];
+  return matrix;
+}
+
+std::string hash_of(std::span<const VariantFacts> variants) {
   ContentHasher hasher;
-  for (const VariantFrame& frame : frames) {
-    update(hasher, frame.panorama);
-    update(hasher, frame.variant);
-    update(hasher, frame.frame);
+  for (const VariantFacts& facts : variants) {
+    update(hasher, facts.panorama);
+    update(hasher, facts.variant);
+    update(hasher, text_of(facts.frame));
+    update(hasher, rows_of(facts.colour));
+    update(hasher, rows_of(facts.turn));
+    update(hasher, facts.is_whole ? "whole" : "not whole");
   }
   return hasher.digest();
 }
@@ -147,23 +167,27 @@ Result<std::vector<std::string>> Store::tags_of(std::string_view panorama) {
   return tags;
 }
 
-Status Store::set_frames(std::span<const VariantFrame> frames) {
-  return replace_facts(kFramesProperty, hash_of(frames), [&]() -> Status {
-    SHOAL_RETURN_IF_ERROR(impl_->run("DELETE FROM frames"));
-    for (const VariantFrame& frame : frames) {
-      SHOAL_RETURN_IF_ERROR(impl_->run("INSERT INTO frames VALUES (?,?,?)", frame.panorama,
-                                       frame.variant, frame.frame));
+Status Store::set_variants(std::span<const VariantFacts> variants) {
+  return replace_facts(kVariantsProperty, hash_of(variants), [&]() -> Status {
+    SHOAL_RETURN_IF_ERROR(impl_->run("DELETE FROM variants"));
+    for (const VariantFacts& facts : variants) {
+      SHOAL_RETURN_IF_ERROR(impl_->run("INSERT INTO variants VALUES (?,?,?,?,?,?)", facts.panorama,
+                                       facts.variant, text_of(facts.frame), rows_of(facts.colour),
+                                       rows_of(facts.turn), std::int64_t{facts.is_whole}));
     }
     return {};
   });
 }
 
-Result<std::string> Store::frame_of(std::string_view panorama, std::string_view variant) {
-  std::string frame;
+Result<std::vector<VariantFacts>> Store::variants() {
+  std::vector<VariantFacts> variants;
   SHOAL_RETURN_IF_ERROR(impl_->query(
-      "SELECT frame FROM frames WHERE panorama = ? AND variant = ?",
-      [&](const SqlStatement& row) { frame = row.text(0); }, panorama, variant));
-  return frame;
+      "SELECT * FROM variants ORDER BY panorama, variant", [&](const SqlStatement& row) {
+        const auto frame = parse_frame(row.text(2));
+        variants.push_back({row.text(0), row.text(1), frame ? *frame : Frame{},
+                            matrix_of(row.text(3)), matrix_of(row.text(4)), row.integer(5) != 0});
+      }));
+  return variants;
 }
 
 Status Store::set_property(std::string_view name, std::string_view value) {

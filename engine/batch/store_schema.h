@@ -9,7 +9,7 @@
 namespace shoal {
 
 inline constexpr std::int64_t kStoreApplicationId = 0x73686f6c;  // "shol"
-inline constexpr std::int64_t kStoreVersion = 3;
+inline constexpr std::int64_t kStoreVersion = 4;
 
 inline constexpr const char* kStoreSchema = R"sql(
 -- Facts about the last run, by name.
@@ -39,11 +39,16 @@ CREATE TABLE tags (
   PRIMARY KEY (panorama, position)
 ) WITHOUT ROWID;
 
--- Frames that the tables of the last run are told in, where they are not the native one.
-CREATE TABLE frames (
+-- What the tables of the last run are of, where that is not the light of the pixels in the native
+-- frame: first colour and turn, then a window.
+CREATE TABLE variants (
   panorama TEXT NOT NULL,
   variant  TEXT NOT NULL,
-  frame    TEXT NOT NULL,          -- as "+z,-x,+y": centre, right, up
+  frame    TEXT NOT NULL,          -- of the tables, as "+z,-x,+y": centre, right, up
+  colour   TEXT NOT NULL,          -- rows of a matrix that (r, g, b) columns were multiplied by:
+                                   -- nine numbers, each with a blank behind it; linear Rec.709
+  turn     TEXT NOT NULL,          -- likewise of directions, in the native frame
+  is_whole INTEGER NOT NULL,       -- 0: lights were added, or a part taken out, besides
   PRIMARY KEY (panorama, variant)
 ) WITHOUT ROWID;
 

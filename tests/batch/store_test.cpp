@@ -241,14 +241,17 @@ TEST(Store, TagsAreThoseOfTheLastRun) {
   EXPECT_EQ(problems_of(folder / "s.db"), "");
 }
 
-TEST(Store, FramesAreThoseOfTheLastRun) {
+TEST(Store, VariantsAreThoseOfTheLastRun) {
   const TemporaryFolder folder;
   auto store = Store::open(folder / "s.db", Store::Access::write);
-  ASSERT_TRUE(store->set_frames(std::vector<VariantFrame>{{"a", "x", "+z,-x,+y"}}).ok());
-  EXPECT_EQ(*store->frame_of("a", "x"), "+z,-x,+y");
-  EXPECT_EQ(*store->frame_of("a", "y"), "");
-  ASSERT_TRUE(store->set_frames({}).ok());
-  EXPECT_EQ(*store->frame_of("a", "x"), "");
+  // Numbers without a short decimal form, each once: rows and columns must not change places.
+  const std::vector<VariantFacts> two = {
+      {"a", "x", *parse_frame("+z,-x,+y"), glm::dmat3(1, 2, 3, 4, 5, 6, 7, 8, 1.0 / 9), {}, false},
+      {"b", "x", {}, glm::dmat3(1.0), glm::dmat3(0.1, 0, 0, 0, 0, -1.0 / 3, 0, 1e-300, 0), true}};
+  ASSERT_TRUE(store->set_variants(two).ok());
+  EXPECT_EQ(*store->variants(), two);
+  ASSERT_TRUE(store->set_variants({}).ok());
+  EXPECT_TRUE(store->variants()->empty());
 }
 
 }  // namespace

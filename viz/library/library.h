@@ -58,7 +58,8 @@ struct Panorama {
   std::optional<PixelFigures> pixels;
   std::optional<QualityFigures> quality;  // what the store has
   // What a variant, or the entry's exposure, rotation and so on, makes of the pixels' light.
-  // Nothing where nobody can tell: lights were added, a part was taken out.
+  // Nothing where that is not all, because lights were added or a part was taken out, and where
+  // nobody says.
   std::optional<LightChange> change = LightChange{};
   std::vector<std::string> tags;
   std::vector<std::string> warnings;

@@ -27,7 +27,7 @@ static_assert(std::endian::native == std::endian::little, "the store's numbers a
 
 // engine/batch/store_schema.h says what these are, and describes all tables.
 constexpr std::int64_t kApplicationId = 0x73686f6c;
-constexpr std::int64_t kVersion = 3;
+constexpr std::int64_t kVersion = 4;
 
 constexpr int kBusyTimeoutMs = 30'000;  // while a run writes
 
@@ -234,34 +234,57 @@ Status add_quality(const std::filesystem::path& store, sqlite3* database, Librar
   return {};
 }
 
-// Of each panorama and variant whose table is not in the native frame.
-Result<std::map<std::pair<std::string, std::string>, Frame>> frames_in(
-    const std::filesystem::path& store, sqlite3* database) {
-  std::map<std::pair<std::string, std::string>, Frame> frames;
+// What the store says of a panorama in a variant. Where it says nothing: the light of the pixels.
+struct VariantFacts {
+  Frame frame;  // of a table
+  std::optional<LightChange> change = LightChange{};
+};
+using FactsByName = std::map<std::pair<std::string, std::string>, VariantFacts>;
+
+// Nine numbers, row after row.
+Result<glm::dmat3> matrix_from(const std::string& text) {
+  std::istringstream numbers(text);
+  glm::dmat3 matrix(1.0);
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) numbers >> matrix[column][row];
+  }
+  if (numbers) return matrix;
+  return Error{ErrorCode::malformed, "the store is damaged: not a matrix", text,
+               "delete it and run `shoal run` again"};
+}
+
+Result<FactsByName> facts_in(const std::filesystem::path& store, sqlite3* database) {
+  FactsByName facts;
   const auto take = [&](const Row& row) -> Status {
+    VariantFacts fact;
     SHOAL_ASSIGN_OR_RETURN(frame, parse_frame(row.text(2)));
-    frames[{row.text(0), row.text(1)}] = frame;
+    SHOAL_ASSIGN_OR_RETURN(colour, matrix_from(row.text(3)));
+    SHOAL_ASSIGN_OR_RETURN(turn, matrix_from(row.text(4)));
+    fact.frame = frame;
+    fact.change = LightChange{colour, turn};
+    if (row.integer(5) == 0) fact.change.reset();
+    facts[{row.text(0), row.text(1)}] = fact;
     return {};
   };
   SHOAL_RETURN_IF_ERROR(
-      query(store, database, "SELECT panorama, variant, frame FROM frames", take));
-  return frames;
+      query(store, database,
+            "SELECT panorama, variant, frame, colour, turn, is_whole FROM variants", take));
+  return facts;
 }
 
 // The run's table in the native frame. JSON tells its frames itself; of CSV the store does.
 Result<std::vector<CoefficientRecord>> table_beside(const std::filesystem::path& store,
-                                                    sqlite3* database) {
+                                                    const FactsByName& facts) {
   std::error_code code;
   const auto json = store.parent_path() / "coefficients.json";
   if (std::filesystem::exists(json, code)) return read_table(json);
   const auto csv = store.parent_path() / "coefficients.csv";
   if (!std::filesystem::exists(csv, code)) return std::vector<CoefficientRecord>();
   SHOAL_ASSIGN_OR_RETURN(records, read_table(csv));
-  SHOAL_ASSIGN_OR_RETURN(frames, frames_in(store, database));
   for (CoefficientRecord& record : records) {
-    const auto frame = frames.find({record.panorama, record.variant});
-    if (frame == frames.end()) continue;
-    const glm::dmat3 to_native = glm::transpose(native_to_frame(frame->second));
+    const auto fact = facts.find({record.panorama, record.variant});
+    if (fact == facts.end()) continue;
+    const glm::dmat3 to_native = glm::transpose(native_to_frame(fact->second.frame));
     record.coefficients = rotate(record.coefficients, to_native);
   }
   return records;
@@ -283,16 +306,21 @@ bool tells_other_light(const Panorama& told, const Panorama& projected) {
   return false;
 }
 
-// The light that the manifest asked for, in place of the one that the pixels hold.
+// What a manifest asked to be made of the pixels' light.
+void take_change(const FactsByName& facts, Panorama& panorama) {
+  const auto fact = facts.find(
+      {panorama.name, panorama.variant.empty() ? std::string(kPlainVariant) : panorama.variant});
+  if (fact != facts.end()) panorama.change = fact->second.change;
+}
+
+// The light that was made of it, in place of the one that the pixels hold.
 void take_light(Panorama& told, Panorama& panorama) {
-  panorama.change =
-      find_light_change(apply_quantity(panorama.coefficients, told.quantity), told.coefficients);
   panorama.quantity = told.quantity;
   panorama.coefficients = std::move(told.coefficients);
 }
 
 // What the store says of a panorama holds for its variants, but for the coefficients.
-void add_variants(std::vector<Panorama> table, Library& library) {
+void add_variants(std::vector<Panorama> table, const FactsByName& facts, Library& library) {
   std::unordered_map<std::string, std::size_t> stored;
   for (std::size_t i = 0; i < library.panoramas.size(); ++i) {
     stored.emplace(library.panoramas[i].name, i);
@@ -306,18 +334,21 @@ void add_variants(std::vector<Panorama> table, Library& library) {
     if (found == stored.end()) continue;
     std::size_t& position = positions[found->second];
     position = std::min(position, i);
-    const Panorama& own = library.panoramas[found->second];
+    Panorama& own = library.panoramas[found->second];
     if (table[i].variant.empty()) {
+      take_change(facts, own);
       if (tells_other_light(table[i], own)) plain.emplace_back(i, found->second);
       continue;
     }
     Panorama variant = own;
     variant.variant = table[i].variant;
+    variant.change = LightChange{};
+    take_change(facts, variant);
     take_light(table[i], variant);
     library.panoramas.push_back(std::move(variant));
     positions.push_back(i);
   }
-  // Not before: a variant's light is told of what the pixels were projected to.
+  // Not before: a variant begins with what the pixels were projected to.
   for (const auto& [told, own] : plain) take_light(table[told], library.panoramas[own]);
   std::vector<std::size_t> order(positions.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -338,8 +369,9 @@ Result<Library> load_store(const std::filesystem::path& store) {
   SHOAL_RETURN_IF_ERROR(query(store, database.get(),
                               "SELECT panorama, tag FROM tags ORDER BY panorama, position",
                               [&](const Row& row) { return take_tag(row, library); }));
-  SHOAL_ASSIGN_OR_RETURN(records, table_beside(store, database.get()));
-  add_variants(panoramas_of(std::move(records)), library);
+  SHOAL_ASSIGN_OR_RETURN(facts, facts_in(store, database.get()));
+  SHOAL_ASSIGN_OR_RETURN(records, table_beside(store, facts));
+  add_variants(panoramas_of(std::move(records)), facts, library);
   SHOAL_RETURN_IF_ERROR(add_quality(store, database.get(), library));
   return library;
 }

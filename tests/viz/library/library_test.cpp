@@ -148,23 +148,47 @@ TEST_F(LibraryTest, HasTheQualityOfEachVariant) {
   EXPECT_FALSE(loaded({out / "coefficients.csv"}).panoramas[0].quality);
 }
 
-// A variant's change is told of what the pixels hold, whatever the entry itself makes of them; of
-// light that was added nobody can tell.
+// A variant's change is told of what the pixels hold, whatever the entry itself makes of them, and
+// whatever the light looks like; but not of light that was added or taken out.
 TEST_F(LibraryTest, TellsWhatVariantsMakeOfThePixels) {
   make_panoramas();
   write_text(folder / "own.yaml",
              "shoal: 1\noutput: own\npanoramas: [{file: a.hdr, exposure: 1}]\nvariants: {plain: "
-             "{}, dim: {exposure: -2}, soft: {window: hann}, rest: {dominant: remove}}\n");
+             "{}, dim: {exposure: -2}, soft: {window: hann}, both: {rotate: {pitch: 30}, matrix: "
+             "[[0, 1, 0], [0.5, 0, 0], [0, 0, 1]]}, rest: {dominant: remove}}\n");
   const Finished finished = shoal({"run", (folder / "own.yaml").string()});
   ASSERT_EQ(finished.exit_status, 0) << finished.err;
   const Library library = loaded({folder / "own"});
-  ASSERT_THAT(names_of(library), ElementsAre("a", "a.dim", "a.soft", "a.rest"));
-  const double factors[] = {2.0, 0.25, 2.0};
-  for (std::size_t i = 0; i < 3; ++i) {
-    ASSERT_TRUE(library.panoramas[i].change) << i;
-    EXPECT_EQ(library.panoramas[i].change->colour[0][0], factors[i]) << i;
+  ASSERT_THAT(names_of(library), ElementsAre("a", "a.dim", "a.soft", "a.both", "a.rest"));
+  const auto change = [&](std::size_t i) { return library.panoramas[i].change; };
+  EXPECT_EQ(change(0), (LightChange{glm::dmat3(2.0), glm::dmat3(1.0)}));
+  EXPECT_EQ(change(1), (LightChange{glm::dmat3(0.25), glm::dmat3(1.0)}));
+  EXPECT_EQ(change(2), change(0));
+  // Columns: red goes to green by half, green to red; twice, for the entry's exposure.
+  EXPECT_EQ(change(3),
+            (LightChange{glm::dmat3(0, 1, 0, 2, 0, 0, 0, 0, 2), *turn_matrix({0.0, 30.0, 0.0})}));
+  EXPECT_FALSE(change(4));
+}
+
+// The pixels of a file lack the lights beside it, and have the sun that was taken out.
+TEST_F(LibraryTest, TellsWherePixelsAreNotTheWholeLight) {
+  make_panoramas();
+  const std::string lamp = "lights: [{ambient: {radiance: 1}}]";
+  const std::string sky = "sky: {sun: {elevation: 30}, size: [32, 16]}";
+  write_text(folder / "own.yaml",
+             "shoal: 1\noutput: own\npanoramas:\n  - {file: a.hdr, name: a_lit, " + lamp +
+                 "}\n  - {file: a.hdr, name: b_sunless, sun: {top: 0.01, action: remove}}\n  - "
+                 "{file: a.hdr, name: c_seen, sun: {top: 0.01}}\n  - {name: d_lamp, " +
+                 lamp + "}\n  - {name: e_sky, " + sky + ", " + lamp + "}\n  - {name: f_sky, " +
+                 sky + ", " + lamp + ", picture: {size: [32, 16]}}\n");
+  const Finished finished = shoal({"run", (folder / "own.yaml").string()});
+  ASSERT_EQ(finished.exit_status, 0) << finished.err;
+  const Library library = loaded({folder / "own"});
+  ASSERT_EQ(library.panoramas.size(), 6U);
+  const bool whole[] = {false, false, true, true, false, true};
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(library.panoramas[i].change.has_value(), whole[i]) << library.panoramas[i].name;
   }
-  EXPECT_FALSE(library.panoramas[3].change);
 }
 
 // What was painted of an entry without a file stands for its pixels.
