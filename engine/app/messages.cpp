@@ -34,16 +34,22 @@ std::string counted(std::int64_t count, std::string_view what) {
 
 void print_error(const Error& error) { print_message(Style::red, "error:", error.text()); }
 
-void print_warnings(const std::vector<PanoramaNote>& warnings) {
-  print_some(Style::yellow, "warning:", warnings);
+void FileNotes::add_layout(const std::string& file, const std::string& recognised) {
+  if (!recognised.empty()) layouts.push_back({file, recognised});
 }
 
-void print_notes(const std::vector<PanoramaNote>& notes) {
-  print_some(Style::bold, "note:", notes);
+void FileNotes::add_warnings(const std::string& file, const std::vector<std::string>& texts) {
+  for (const std::string& text : texts) warnings.push_back({file, text});
 }
 
-void print_failures(const std::vector<PanoramaNote>& failures) {
-  for (const PanoramaNote& failure : failures) {
+void FileNotes::add_failure(const std::string& file, const Error& error) {
+  if (error.code != ErrorCode::interrupted) failures.push_back({file, error.text()});
+}
+
+void print_notes(const FileNotes& notes) {
+  print_some(Style::bold, "note:", notes.layouts);
+  print_some(Style::yellow, "warning:", notes.warnings);
+  for (const PanoramaNote& failure : notes.failures) {
     print_message(Style::red, "failed:", failure.text);
   }
 }

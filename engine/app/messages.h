@@ -1,7 +1,7 @@
 // What shoal says to a person, on standard error.
 #pragma once
 
-#include <string_view>
+#include <string>
 #include <vector>
 
 #include "batch/run.h"
@@ -11,14 +11,20 @@ namespace shoal {
 
 void print_error(const Error& error);
 
-// "warning: NAME: text" a line, the first few of many.
-void print_warnings(const std::vector<PanoramaNote>& warnings);
+// What is to be said of files when a command ends.
+struct FileNotes {
+  std::vector<PanoramaNote> layouts;  // that were recognised
+  std::vector<PanoramaNote> warnings;
+  std::vector<PanoramaNote> failures;
 
-// "note: NAME: text" a line, as many.
-void print_notes(const std::vector<PanoramaNote>& notes);
+  void add_layout(const std::string& file, const std::string& recognised);  // unless it is empty
+  void add_warnings(const std::string& file, const std::vector<std::string>& texts);
+  void add_failure(const std::string& file, const Error& error);  // unless it was interrupted
+};
 
-// "failed: text" a line, all of them.
-void print_failures(const std::vector<PanoramaNote>& failures);
+// "note: NAME: text", "warning: NAME: text" a line, the first few of many; then "failed: text", all
+// of them.
+void print_notes(const FileNotes& notes);
 
 // What a run did, how fast, and where its results are.
 void print_summary(const RunSummary& summary, const Manifest& manifest);

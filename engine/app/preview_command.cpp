@@ -6,7 +6,6 @@
 #include <exception>
 #include <filesystem>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "app/in_order.h"
 #include "app/interrupt.h"
 #include "app/messages.h"
 #include "batch/scheduler.h"
@@ -45,7 +45,6 @@ constexpr PreviewFormat kFormats[] = {{"exr", MapFormat::exr_float, "exr"},
 
 // How one file ended.
 struct Outcome {
-  bool ended = false;
   std::string output;
   int width = 0;
   int height = 0;
@@ -54,8 +53,7 @@ struct Outcome {
   Status status;
 };
 
-// Shrinks the files, a worker each at a time, and tells of them in their order, each as soon as
-// those before it have ended.
+// Shrinks the files, a worker each at a time, and tells of them in their order.
 class PreviewRun {
  public:
   PreviewRun(const PreviewCommand& command, const PreviewFormat& format, Layout layout,
@@ -64,23 +62,23 @@ class PreviewRun {
         format_(format),
         settings_{command.width, layout},
         stop_(stop),
-        outcomes_(command.files.size()) {}
+        outcomes_(command.files.size(),
+                  [this](std::size_t index, const Outcome& outcome) { print(index, outcome); }) {}
 
   void run(int threads) {
     const auto work = [this] {
       while (!stop_) {
         const std::size_t index = next_++;
-        if (index >= outcomes_.size()) return;
-        tell(index, shrink(index));
+        if (index >= command_.files.size()) return;
+        outcomes_.bring(index, shrink(index));
       }
     };
     std::vector<std::jthread> workers;
-    const auto count = std::min(static_cast<std::size_t>(threads), outcomes_.size());
+    const auto count = std::min(static_cast<std::size_t>(threads), command_.files.size());
     for (std::size_t i = 0; i < count; ++i) workers.emplace_back(work);
   }
 
-  [[nodiscard]] const std::vector<PanoramaNote>& failures() const { return failures_; }
-  [[nodiscard]] const std::vector<PanoramaNote>& warnings() const { return warnings_; }
+  [[nodiscard]] const FileNotes& notes() const { return notes_; }
 
  private:
   // What a library throws ends one file, not the others.
@@ -92,7 +90,6 @@ class PreviewRun {
       outcome.status = Error{ErrorCode::internal, std::string("unexpected: ") + exception.what(),
                              command_.files[index], "please report this"};
     }
-    outcome.ended = true;
     return outcome;
   }
 
@@ -108,26 +105,19 @@ class PreviewRun {
     return write_preview(preview, format_.format, output);
   }
 
-  void tell(std::size_t index, Outcome outcome) {
-    const std::scoped_lock lock(mutex_);
-    outcomes_[index] = std::move(outcome);
-    for (; next_told_ < outcomes_.size() && outcomes_[next_told_].ended; ++next_told_) {
-      print(command_.files[next_told_], outcomes_[next_told_]);
-    }
-  }
-
-  void print(const std::string& file, const Outcome& outcome) {
+  void print(std::size_t index, const Outcome& outcome) {
+    const std::string& file = command_.files[index];
     if (outcome.status) {
       fmt::print(
           "{{\"input\": {}, \"output\": {}, \"width\": {}, \"height\": {}, \"layout\": {}}}\n",
           json_quoted(file), json_quoted(outcome.output), outcome.width, outcome.height,
           json_quoted(name_of(outcome.layout)));
     } else if (outcome.status.error().code != ErrorCode::interrupted) {
-      const std::string text = outcome.status.error().text();
-      fmt::print("{{\"input\": {}, \"error\": {}}}\n", json_quoted(file), json_quoted(text));
-      failures_.push_back({file, text});
+      fmt::print("{{\"input\": {}, \"error\": {}}}\n", json_quoted(file),
+                 json_quoted(outcome.status.error().text()));
     }
-    for (const std::string& warning : outcome.warnings) warnings_.push_back({file, warning});
+    if (!outcome.status) notes_.add_failure(file, outcome.status.error());
+    notes_.add_warnings(file, outcome.warnings);
   }
 
   const PreviewCommand& command_;
@@ -135,11 +125,8 @@ class PreviewRun {
   const PreviewSettings settings_;
   const std::atomic<bool>& stop_;
   std::atomic<std::size_t> next_{0};
-  std::mutex mutex_;  // guards what follows
-  std::vector<Outcome> outcomes_;
-  std::size_t next_told_ = 0;
-  std::vector<PanoramaNote> failures_;
-  std::vector<PanoramaNote> warnings_;
+  FileNotes notes_;
+  InOrder<Outcome> outcomes_;
 };
 
 int preview(const PreviewCommand& command) {
@@ -153,10 +140,9 @@ int preview(const PreviewCommand& command) {
   const std::atomic<bool>& stop = stop_on_interrupt();
   PreviewRun run(command, format, *layout, stop);
   run.run(command.threads > 0 ? command.threads : default_thread_count());
-  print_warnings(run.warnings());
-  print_failures(run.failures());
+  print_notes(run.notes());
   if (stop) return kExitInterrupted;
-  return run.failures().empty() ? kExitOk : kExitFailed;
+  return run.notes().failures.empty() ? kExitOk : kExitFailed;
 }
 
 }  // namespace

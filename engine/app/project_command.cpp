@@ -7,6 +7,7 @@
 
 #include "app/commands.h"
 #include "app/common_options.h"
+#include "app/in_order.h"
 #include "app/interrupt.h"
 #include "app/messages.h"
 #include "app/profile_export.h"
@@ -22,37 +23,18 @@ struct ProjectCommand {
   ProfileOptions profile;
 };
 
-// Collects results from the workers and prints them in the order of the files, as soon as that is
-// possible.
-class OrderedTable {
+// Writes projections to a table, and remembers what is to be said of them.
+class ProjectionTable {
  public:
-  OrderedTable(const std::vector<std::string>& files, const ComputeChoice& choice,
-               TableWriter& writer)
-      : files_(files), choice_(choice), writer_(writer), results_(files.size()) {}
+  ProjectionTable(const std::vector<std::string>& files, const ComputeChoice& choice,
+                  TableWriter& writer)
+      : files_(files), choice_(choice), writer_(writer) {}
 
-  void take(std::size_t index, Result<Projection> result) {
-    const std::scoped_lock lock(mutex_);
-    results_[index] = std::move(result);
-    while (next_ < results_.size() && results_[next_] && write_status_) {
-      print(files_[next_], *results_[next_]);
-      results_[next_++].reset();
-    }
-  }
-
-  [[nodiscard]] const std::vector<PanoramaNote>& failures() const { return failures_; }
-  [[nodiscard]] const std::vector<PanoramaNote>& warnings() const { return warnings_; }
-  [[nodiscard]] const std::vector<PanoramaNote>& layouts() const { return layouts_; }
-  [[nodiscard]] const Status& write_status() const { return write_status_; }
-
- private:
-  void print(const std::string& file, Result<Projection>& result) {
-    if (!result) {
-      const bool interrupted = result.error().code == ErrorCode::interrupted;
-      if (!interrupted) failures_.push_back({file, result.error().text()});
-      return;
-    }
-    for (const std::string& warning : result->warnings) warnings_.push_back({file, warning});
-    if (!result->recognised_layout.empty()) layouts_.push_back({file, result->recognised_layout});
+  void take(std::size_t index, const Result<Projection>& result) {
+    const std::string& file = files_[index];
+    if (!result) return notes_.add_failure(file, result.error());
+    notes_.add_warnings(file, result->warnings);
+    notes_.add_layout(file, result->recognised_layout);
     const Frame frame = choice_.frame.value_or(Frame{});
     const Coefficients radiance = to_frame(result->radiance, frame);
     for (const Quantity quantity : choice_.quantities) {
@@ -63,16 +45,15 @@ class OrderedTable {
     }
   }
 
+  [[nodiscard]] FileNotes& notes() { return notes_; }
+  [[nodiscard]] const Status& write_status() const { return write_status_; }
+
+ private:
   const std::vector<std::string>& files_;
   const ComputeChoice& choice_;
   TableWriter& writer_;
-  std::mutex mutex_;
-  std::vector<std::optional<Result<Projection>>> results_;
-  std::size_t next_ = 0;
   Status write_status_;
-  std::vector<PanoramaNote> failures_;
-  std::vector<PanoramaNote> warnings_;
-  std::vector<PanoramaNote> layouts_;  // that were recognised
+  FileNotes notes_;
 };
 
 bool is_for_programs(const ComputeChoice& choice) {
@@ -95,7 +76,9 @@ ProjectionSettings settings_of(const ComputeChoice& choice) {
 
 int project_files(const std::vector<std::string>& files, const ComputeChoice& choice,
                   TableWriter& writer) {
-  OrderedTable table(files, choice, writer);
+  ProjectionTable table(files, choice, writer);
+  InOrder<Result<Projection>> results(
+      files.size(), [&](std::size_t index, auto& result) { table.take(index, result); });
   ProjectionTables tables;
   const std::atomic<bool>& stop = stop_on_interrupt();
   std::atomic<std::int64_t> pixels_done{0};
@@ -107,20 +90,19 @@ int project_files(const std::vector<std::string>& files, const ComputeChoice& ch
     prefetch_file(files[index], limit);
   };
   steps.finish = [&](std::size_t index, PanoramaProjection* projection, Status status) {
-    table.take(index,
-               status ? projection->finish() : Result<Projection>(std::move(status).error()));
+    results.bring(index,
+                  status ? projection->finish() : Result<Projection>(std::move(status).error()));
   };
   run_jobs(files.size(), choice.threads, stop, pixels_done, steps);
   Status written = table.write_status() ? Status() : Status(table.write_status().error());
   if (written) {
     if (auto committed = writer.commit(); !committed) written = std::move(committed).error();
   }
-  if (!is_for_programs(choice)) print_notes(table.layouts());
-  print_warnings(table.warnings());
-  print_failures(table.failures());
+  if (is_for_programs(choice)) table.notes().layouts.clear();
+  print_notes(table.notes());
   if (!written) print_error(written.error());
   if (stop) return kExitInterrupted;
-  return table.failures().empty() && written ? kExitOk : kExitFailed;
+  return table.notes().failures.empty() && written ? kExitOk : kExitFailed;
 }
 
 Result<std::unique_ptr<TableWriter>> make_writer(const ProjectCommand& command,

@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,6 +12,7 @@
 
 #include "app/commands.h"
 #include "app/common_options.h"
+#include "app/in_order.h"
 #include "app/interrupt.h"
 #include "app/messages.h"
 #include "batch/measured_error.h"
@@ -105,27 +105,33 @@ Result<QualityRecord> figures_of(const std::string& file, const Projection& proj
   return record;
 }
 
-// What is to be said of a picture besides its figures.
-struct PictureWords {
-  std::string layout;
+// What is found of a file.
+struct Findings {
+  Result<QualityRecord> record;
+  std::string layout;  // that was recognised
   std::vector<std::string> warnings;
 };
 
-// Prints what the workers find in the order of the files, as soon as that is possible.
-class OrderedFigures {
+// Prints findings in the order in which they are taken.
+class FigurePrinter {
  public:
-  OrderedFigures(const std::vector<std::string>& files, const QualityChoice& choice)
-      : files_(files), json_(choice.json), results_(files.size()) {
+  FigurePrinter(const std::vector<std::string>& files, const QualityChoice& choice)
+      : files_(files), json_(choice.json) {
     if (!json_) fmt::print("{}", quality_csv_header(VariantColumn::absent));
     if (json_) fmt::print("{{\n\"schema\": \"shoal/quality\",\n\"version\": 1,\n\"records\": [");
   }
 
-  void take(std::size_t index, Result<QualityRecord> result, PictureWords words) {
-    const std::scoped_lock lock(mutex_);
-    results_[index] = {std::move(result), std::move(words)};
-    for (; next_ < results_.size() && results_[next_]; ++next_) {
-      print(files_[next_], *results_[next_]);
-      results_[next_].reset();
+  void take(std::size_t index, const Findings& found) {
+    const std::string& file = files_[index];
+    notes_.add_warnings(file, found.warnings);
+    if (!json_) notes_.add_layout(file, found.layout);
+    if (!found.record) {
+      notes_.add_failure(file, found.record.error());
+    } else if (json_) {
+      fmt::print("{}{}", printed_++ == 0 ? "\n" : ",\n",
+                 quality_json(*found.record, VariantColumn::absent));
+    } else {
+      fmt::print("{}", quality_csv_row(*found.record, VariantColumn::absent));
     }
   }
 
@@ -133,38 +139,13 @@ class OrderedFigures {
     if (json_) fmt::print("\n]\n}}\n");
   }
 
-  [[nodiscard]] const std::vector<PanoramaNote>& failures() const { return failures_; }
-  [[nodiscard]] const std::vector<PanoramaNote>& warnings() const { return warnings_; }
-  // That were recognised; none for programs.
-  [[nodiscard]] const std::vector<PanoramaNote>& layouts() const { return layouts_; }
+  [[nodiscard]] const FileNotes& notes() const { return notes_; }
 
  private:
-  using Outcome = std::pair<Result<QualityRecord>, PictureWords>;
-
-  void print(const std::string& file, const Outcome& outcome) {
-    const auto& [record, words] = outcome;
-    for (const std::string& warning : words.warnings) warnings_.push_back({file, warning});
-    if (!json_ && !words.layout.empty()) layouts_.push_back({file, words.layout});
-    if (!record) {
-      const bool interrupted = record.error().code == ErrorCode::interrupted;
-      if (!interrupted) failures_.push_back({file, record.error().text()});
-    } else if (json_) {
-      fmt::print("{}{}", printed_++ == 0 ? "\n" : ",\n",
-                 quality_json(*record, VariantColumn::absent));
-    } else {
-      fmt::print("{}", quality_csv_row(*record, VariantColumn::absent));
-    }
-  }
-
   const std::vector<std::string>& files_;
   const bool json_;
-  std::mutex mutex_;  // guards what follows
-  std::vector<std::optional<Outcome>> results_;
-  std::size_t next_ = 0;
   std::int64_t printed_ = 0;
-  std::vector<PanoramaNote> failures_;
-  std::vector<PanoramaNote> warnings_;
-  std::vector<PanoramaNote> layouts_;
+  FileNotes notes_;
 };
 
 int print_quality(const QualityCommand& command) {
@@ -173,7 +154,10 @@ int print_quality(const QualityCommand& command) {
     print_error(choice.error());
     return kExitUsage;
   }
-  OrderedFigures figures(command.files, *choice);
+  FigurePrinter printer(command.files, *choice);
+  InOrder<Findings> findings(command.files.size(), [&](std::size_t index, const Findings& found) {
+    printer.take(index, found);
+  });
   ProjectionTables tables;
   const std::atomic<bool>& stop = stop_on_interrupt();
   std::atomic<std::int64_t> pixels_done{0};
@@ -183,19 +167,17 @@ int print_quality(const QualityCommand& command) {
   };
   steps.finish = [&](std::size_t index, PanoramaProjection* projection, Status status) {
     auto found = status ? projection->finish() : Result<Projection>(std::move(status).error());
-    if (!found) return figures.take(index, std::move(found).error(), {});
-    figures.take(index, figures_of(command.files[index], *found, *choice, stop),
-                 {found->recognised_layout, found->warnings});
+    if (!found) return findings.bring(index, {std::move(found).error(), "", {}});
+    findings.bring(index, {figures_of(command.files[index], *found, *choice, stop),
+                           found->recognised_layout, found->warnings});
   };
   // Brute force spreads one panorama over the threads.
   run_jobs(command.files.size(), choice->brute_force_rows > 0 ? 1 : choice->compute.threads, stop,
            pixels_done, steps);
-  figures.end();
-  print_notes(figures.layouts());
-  print_warnings(figures.warnings());
-  print_failures(figures.failures());
+  printer.end();
+  print_notes(printer.notes());
   if (stop) return kExitInterrupted;
-  return figures.failures().empty() ? kExitOk : kExitFailed;
+  return printer.notes().failures.empty() ? kExitOk : kExitFailed;
 }
 
 }  // namespace

@@ -57,8 +57,7 @@ int run_prepared(Prepared& prepared, const RunCommand& command, const Manifest& 
   }
   // The events have told programs all of it.
   if (mode != ProgressMode::json) {
-    print_warnings(summary->warnings);
-    print_failures(summary->failures);
+    print_notes({summary->layouts, summary->warnings, summary->failures});
     print_summary(*summary, manifest);
   }
   if (summary->interrupted) return kExitInterrupted;

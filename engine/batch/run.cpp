@@ -65,6 +65,7 @@ class Run {
   // What is said of an item at the end.
   struct Notes {
     std::string failure;
+    std::string layout;
     std::vector<std::string> warnings;
   };
 
@@ -210,6 +211,7 @@ Status Run::complete(std::size_t index, PanoramaProjection* projection) {
                       "",
                       result.warnings};
   notes_[index].warnings = result.warnings;
+  notes_[index].layout = result.recognised_layout;
   {
     const std::scoped_lock lock(mutex_);
     remember([&] { return store_.record(done); });
@@ -277,6 +279,7 @@ void Run::report(RunSummary& summary) const {
   for (std::size_t i = 0; i < items_.size(); ++i) {
     const std::string& name = items_[i]->entry->name;
     if (!notes_[i].failure.empty()) summary.failures.push_back({name, notes_[i].failure});
+    if (!notes_[i].layout.empty()) summary.layouts.push_back({name, notes_[i].layout});
     for (const std::string& warning : notes_[i].warnings)
       summary.warnings.push_back({name, warning});
   }

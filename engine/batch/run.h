@@ -34,11 +34,12 @@ struct RunSummary {
   std::int64_t pixel_count = 0;
   std::uint64_t byte_count = 0;        // of the files that were read
   double seconds = 0.0;                // wall time of the projecting
-  std::vector<PanoramaNote> failures;  // in manifest order, as are the warnings
+  std::vector<PanoramaNote> failures;  // in manifest order, as are the next
   std::vector<PanoramaNote> warnings;
-  std::int64_t missing_count = 0;   // of the manifest, but not in the tables
-  std::vector<std::string> tables;  // paths
-  std::int64_t map_count = 0;       // maps and pictures written; the next: exports
+  std::vector<PanoramaNote> layouts;  // that were recognised, and how
+  std::int64_t missing_count = 0;     // of the manifest, but not in the tables
+  std::vector<std::string> tables;    // paths
+  std::int64_t map_count = 0;         // maps and pictures written; the next: exports
   std::int64_t export_count = 0;
   bool interrupted = false;
 };
