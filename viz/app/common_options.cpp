@@ -110,7 +110,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
   command.add_option("--scene", options.scene, scene_names() + "; lobes by default");
   command.add_option("--frame", options.frame,
                      "Frame whose axes are drawn: a name, or where the panorama's centre, right "
-                     "and up point, such as +z,-x,+y");
+                     "and up point, such as +z,-x,+y; that of the library's tables by default");
   command.add_option("--quantity", options.quantity, "radiance, irradiance or irradiance-over-pi");
   command.add_option("--channel", options.channel, "luminance, red, green or blue")
       ->check(CLI::IsMember({"luminance", "red", "green", "blue"}));

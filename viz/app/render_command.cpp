@@ -181,7 +181,7 @@ Result<Library> library_for(const RenderCommand& command, SceneKind scene) {
 }
 
 int render(const RenderCommand& command) {
-  const auto choice = understand(command.scene, command.library.degree);
+  auto choice = understand(command.scene, command.library.degree);
   if (!choice) return report_error(choice.error());
   if (!command.scene.with.empty() && choice->scene != SceneKind::compare) {
     return report_error({ErrorCode::usage, "--with is for the scene compare", "", "leave it out"});
@@ -194,6 +194,7 @@ int render(const RenderCommand& command) {
   }
   auto library = library_for(command, choice->scene);
   if (!library) return report_error(library.error());
+  if (command.scene.frame.empty()) choice->settings.frame = frame_of(*library);
   Renderer renderer(command, *choice, *format, std::move(*library));
   const Status done = renderer.run();
   for (const auto& file : renderer.written()) fmt::print("{}\n", file.string());

@@ -37,7 +37,7 @@ Result<Exhibition> exhibition_of(const ViewCommand& command) {
 }
 
 int view(const ViewCommand& command) {
-  const auto choice = understand(command.scene, command.library.degree);
+  auto choice = understand(command.scene, command.library.degree);
   if (!choice) return report_error(choice.error());
   if (const Status display = check_display(); !display) {
     return report_error({ErrorCode::unsupported, display.error().what, "",
@@ -45,6 +45,7 @@ int view(const ViewCommand& command) {
   }
   const auto exhibition = exhibition_of(command);
   if (!exhibition) return report_error(exhibition.error());
+  if (command.scene.frame.empty()) choice->settings.frame = frame_of(exhibition->library);
   PixelCache pixels(exhibition->library);
   tell("h shows the keys, q quits");
   run_viewer(exhibition->library, pixels,

@@ -2,6 +2,7 @@
 
 #include <fnmatch.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <iterator>
@@ -170,6 +171,14 @@ std::vector<std::size_t> find_panoramas(const Library& library, const std::strin
   return indices_of(library, [&](const Panorama& panorama) {
     return matches(pattern, panorama.name) || matches(pattern, full_name(panorama));
   });
+}
+
+Frame frame_of(const Library& library) {
+  if (library.panoramas.empty()) return {};
+  const Frame& first = library.panoramas.front().frame;
+  const bool is_common = std::ranges::all_of(
+      library.panoramas, [&](const Panorama& panorama) { return panorama.frame == first; });
+  return is_common ? first : Frame{};
 }
 
 Library part_of(const Library& library, std::span<const std::size_t> panoramas) {

@@ -57,10 +57,9 @@ struct Panorama {
   Coefficients coefficients;  // of `quantity`, native frame, linear Rec.709
   std::optional<PixelFigures> pixels;
   std::optional<QualityFigures> quality;  // what the store has
-  // What a variant, or the entry's exposure, rotation and so on, makes of the pixels' light.
-  // Nothing where that is not all, because lights were added or a part was taken out, and where
-  // nobody says.
-  std::optional<LightChange> change = LightChange{};
+  LightChange change;  // what a variant, or the entry's exposure, rotation and so on, makes of the
+                       // pixels' light
+  Frame frame;         // that a table told the coefficients in
   std::vector<std::string> tags;
   std::vector<std::string> warnings;
 };
@@ -100,6 +99,9 @@ struct LoadSettings {
 // text that is somebody's full name stands for that one alone.
 [[nodiscard]] std::vector<std::size_t> find_panoramas(const Library& library,
                                                       const std::string& pattern);
+
+// The frame that all panoramas are told in; the native one where they are told in several.
+[[nodiscard]] Frame frame_of(const Library& library);
 
 // The library with these panoramas alone, in this order; what failed stays with it.
 [[nodiscard]] Library part_of(const Library& library, std::span<const std::size_t> panoramas);

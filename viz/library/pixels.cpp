@@ -129,7 +129,7 @@ void PixelCache::take(const std::map<std::string, std::vector<std::size_t>>& use
       if (!loaded[i]) failures_[panorama] = loaded[i].error().text();
       Pixels pixels = loaded[i] ? *loaded[i] : Pixels();
       const auto& change = library_.panoramas[panorama].change;
-      if (change && change->colour != glm::dmat3(1.0)) apply_colour(change->colour, pixels);
+      if (change.colour != glm::dmat3(1.0)) apply_colour(change.colour, pixels);
       keep({panorama, width, Lying::as_in_file}, std::move(pixels));
     }
   }
@@ -144,11 +144,11 @@ const Pixels& PixelCache::get(std::size_t panorama, int width, Lying lying) {
     prepare(together.empty() ? std::span(&panorama, 1) : std::span(together), width);
   }
   const auto& change = library_.panoramas[panorama].change;
-  const bool turns = lying == Lying::turned && change && change->turn != glm::dmat3(1.0);
+  const bool turns = lying == Lying::turned && change.turn != glm::dmat3(1.0);
   const Key key{panorama, width, turns ? Lying::turned : Lying::as_in_file};
   if (turns && !entries_.contains(key)) {
     const Pixels& pixels = entries_[in_file].pixels;
-    keep(key, pixels.empty() ? Pixels() : turned(pixels, change->turn));
+    keep(key, pixels.empty() ? Pixels() : turned(pixels, change.turn));
   }
   Entry& entry = entries_[key];
   entry.last_use = ++use_count_;

@@ -237,7 +237,7 @@ Status add_quality(const std::filesystem::path& store, sqlite3* database, Librar
 // What the store says of a panorama in a variant. Where it says nothing: the light of the pixels.
 struct VariantFacts {
   Frame frame;  // of a table
-  std::optional<LightChange> change = LightChange{};
+  LightChange change;
 };
 using FactsByName = std::map<std::pair<std::string, std::string>, VariantFacts>;
 
@@ -261,8 +261,7 @@ Result<FactsByName> facts_in(const std::filesystem::path& store, sqlite3* databa
     SHOAL_ASSIGN_OR_RETURN(colour, matrix_from(row.text(3)));
     SHOAL_ASSIGN_OR_RETURN(turn, matrix_from(row.text(4)));
     fact.frame = frame;
-    fact.change = LightChange{colour, turn};
-    if (row.integer(5) == 0) fact.change.reset();
+    fact.change = {colour, turn, row.integer(5) != 0};
     facts[{row.text(0), row.text(1)}] = fact;
     return {};
   };
@@ -286,6 +285,7 @@ Result<std::vector<CoefficientRecord>> table_beside(const std::filesystem::path&
     if (fact == facts.end()) continue;
     const glm::dmat3 to_native = glm::transpose(native_to_frame(fact->second.frame));
     record.coefficients = rotate(record.coefficients, to_native);
+    record.frame = fact->second.frame;
   }
   return records;
 }
@@ -306,11 +306,12 @@ bool tells_other_light(const Panorama& told, const Panorama& projected) {
   return false;
 }
 
-// What a manifest asked to be made of the pixels' light.
+// What a manifest asked to be made of the pixels' light; a clamp took some of it away before.
 void take_change(const FactsByName& facts, Panorama& panorama) {
   const auto fact = facts.find(
       {panorama.name, panorama.variant.empty() ? std::string(kPlainVariant) : panorama.variant});
-  if (fact != facts.end()) panorama.change = fact->second.change;
+  panorama.change = fact != facts.end() ? fact->second.change : LightChange{};
+  if (panorama.pixels && panorama.pixels->clamped_count > 0) panorama.change.is_whole = false;
 }
 
 // The light that was made of it, in place of the one that the pixels hold.
@@ -337,13 +338,14 @@ void add_variants(std::vector<Panorama> table, const FactsByName& facts, Library
     Panorama& own = library.panoramas[found->second];
     if (table[i].variant.empty()) {
       take_change(facts, own);
+      own.frame = table[i].frame;
       if (tells_other_light(table[i], own)) plain.emplace_back(i, found->second);
       continue;
     }
     Panorama variant = own;
     variant.variant = table[i].variant;
-    variant.change = LightChange{};
     take_change(facts, variant);
+    variant.frame = table[i].frame;
     take_light(table[i], variant);
     library.panoramas.push_back(std::move(variant));
     positions.push_back(i);

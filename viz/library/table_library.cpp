@@ -66,6 +66,7 @@ Result<CoefficientRecord> record_of(const Json::Value& value) {
   SHOAL_ASSIGN_OR_RETURN(frame, parse_frame(value["frame"].asString()));
   SHOAL_ASSIGN_OR_RETURN(coefficients, coefficients_of(value));
   record.quantity = quantity;
+  record.frame = frame;
   if (frame != Frame{}) {
     coefficients = rotate(coefficients, glm::transpose(native_to_frame(frame)));
   }
@@ -134,7 +135,8 @@ std::vector<Panorama> panoramas_of(std::vector<CoefficientRecord> records) {
       Panorama& panorama = panoramas.emplace_back();
       panorama.name = record.panorama;
       panorama.variant = record.variant;
-      if (!record.variant.empty()) panorama.change.reset();  // a table does not say from what
+      panorama.frame = record.frame;
+      panorama.change.is_whole = record.variant.empty();  // a table does not say from what
       std::error_code code;
       if (std::filesystem::is_regular_file(record.panorama, code)) panorama.file = record.panorama;
     }

@@ -82,7 +82,7 @@ std::string entry_data(const IndexEntry& entry, const Frame& frame) {
       R"("warnings":{},"thumbnail":{},"ball":{},"exposure":{},"figures":{},"pixels":{}}})",
       script_quoted(entry.name), script_quoted(panorama.variant),
       script_quoted(panorama.file.filename().string()), script_quoted(name_of(panorama.quantity)),
-      panorama.coefficients.degree, !panorama.change, strings(panorama.tags),
+      panorama.coefficients.degree, !panorama.change.is_whole, strings(panorama.tags),
       strings(entry.warnings), script_quoted(entry.thumbnail), entry.ball,
       short_number(entry.exposure), figures_data(entry.figures, frame),
       panorama.pixels ? pixels_data(*panorama.pixels) : "null");

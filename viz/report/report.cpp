@@ -102,7 +102,7 @@ std::string folder_of_names(const Library& library) {
 
 // The light's own, but where the pixels could not be made those of it.
 double exposure_of_pixels(const Panorama& panorama, double of_light) {
-  if (panorama.change || !panorama.pixels) return of_light;
+  if (panorama.change.is_whole || !panorama.pixels) return of_light;
   const auto& [r, g, b] = panorama.pixels->mean;
   const double mean = luminance(glm::dvec3(r, g, b));
   return mean > 0.0 ? kMeanTone / mean : of_light;

@@ -95,9 +95,9 @@ Result<Pair> pixels_and_sum(const SceneInput& input) {
   const Pixels& original = input.pixels->get(input.current, kWidth, Lying::as_in_file);
   if (original.empty()) return more_and_fewer(input, whole, exposure);
   const Coefficients shown = truncate(whole, input.settings.degree.value_or(whole.degree));
-  const glm::dmat3 turn = panorama.change.value_or(LightChange{}).turn;
+  const glm::dmat3 turn = panorama.change.turn;
   std::string note = turn == glm::dmat3(1.0) ? "" : "; both turned back, as the file lies";
-  if (!panorama.change) note = "; two lights: the second one is not of these pixels alone";
+  if (!panorama.change.is_whole) note = "; two lights: the second one is not of these pixels alone";
   // A small panorama's pixels come as they are, not made larger.
   return Pair{{"panorama: " + describe_pixels(panorama), original},
               {"reconstruction: radiance to degree " + std::to_string(shown.degree),

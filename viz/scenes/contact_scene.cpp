@@ -48,7 +48,8 @@ void add_thumbnail(const SceneInput& input, std::size_t index, const Coefficient
   const Pixels& pixels = input.pixels->get(index, preview_width(stage, place));
   if (!pixels.empty()) {
     stage.add_picture(place, tone_mapped_picture(pixels, exposure));
-    if (!input.library->panoramas[index].change) add_note("other light", "other", stage, place);
+    if (!input.library->panoramas[index].change.is_whole)
+      add_note("other light", "other", stage, place);
     return;
   }
   const Pixels sum = synthesise(radiance, kSumWidth, kSumWidth / 2);
@@ -169,7 +170,7 @@ Status show_contact_scene(const SceneInput& input, Stage& stage) {
 
   stage.set_title(input.library->title, subject_of(*input.library, settings));
   const bool some_changed = std::ranges::any_of(
-      shown, [&](std::size_t i) { return !input.library->panoramas[i].change; });
+      shown, [&](std::size_t i) { return !input.library->panoramas[i].change.is_whole; });
   const std::string lines[] = {"each at its own exposure: pixels, irradiance on a white ball, " +
                                    describe(settings.quantity) + " lobes at a scale of their own" +
                                    (some_changed ? "; other light: pixels before lights were added "

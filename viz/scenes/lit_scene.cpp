@@ -89,7 +89,7 @@ Light light_on(const std::vector<Mesh>& meshes, const Source& source) {
 
 // Pixels of another light would be no reference.
 std::string why_no_reference(const SceneInput& input, const Pixels& pixels) {
-  if (!current_panorama(input).change) {
+  if (!current_panorama(input).change.is_whole) {
     return "its pixels are of another light, and nothing tells how this one was made of them";
   }
   return pixels.empty() ? input.pixels->why_empty(input.current) : "";
@@ -102,7 +102,7 @@ std::string coefficients_of_degree(int degree) {
 }
 
 std::string describe_texels(const Panorama& panorama) {
-  return *panorama.change == LightChange{} ? "every texel" : "every texel, changed as its light is";
+  return panorama.change == LightChange{} ? "every texel" : "every texel, changed as its light is";
 }
 
 using ColourOf = std::function<glm::vec3(std::size_t mesh, std::size_t vertex)>;
@@ -192,7 +192,7 @@ Status show_lit_scene(const SceneInput& input, Stage& stage) {
   lit.form_is = coefficients_of_degree(radiance.degree);
   lit.form = light_on(meshes, IrradianceForm(to_frame(radiance, settings.frame)));
   if (missing.empty()) {
-    const glm::dmat3 to_drawn = native_to_frame(settings.frame) * panorama.change->turn;
+    const glm::dmat3 to_drawn = native_to_frame(settings.frame) * panorama.change.turn;
     lit.reference = light_on(meshes, TexelLight(pixels, to_drawn));
     lit.reference_is = "integral over " + describe_texels(panorama);
     measure(lit);

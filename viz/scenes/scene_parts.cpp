@@ -14,9 +14,9 @@ std::string title_of(const Panorama& panorama) {
 }
 
 std::string describe_pixels(const Panorama& panorama) {
-  if (!panorama.change) return "its pixels before the light was changed";
+  if (!panorama.change.is_whole) return "its pixels, but not all of its light";
   const bool painted = panorama.file.empty();
-  const bool same = *panorama.change == LightChange{};
+  const bool same = panorama.change == LightChange{};
   return (painted ? "painted anew" : "its pixels") +
          std::string(same ? "" : ", changed as its light is");
 }

@@ -116,9 +116,8 @@ TEST_F(LibraryTest, ShowsTheLightThatTheManifestAskedFor) {
   }
   const glm::dmat3 turn = *turn_matrix({90.0, 0.0, 0.0});
   expect_near(library.panoramas[1].coefficients, rotate(twice, turn), 1e-13);
-  ASSERT_TRUE(library.panoramas[1].change);
   for (int column = 0; column < 3; ++column) {
-    const LightChange& change = *library.panoramas[1].change;
+    const LightChange& change = library.panoramas[1].change;
     EXPECT_NEAR(change.colour[column][column], 2.0, 1e-9);
     EXPECT_LT(glm::length(change.turn[column] - turn[column]), 1e-9);
   }
@@ -153,13 +152,15 @@ TEST_F(LibraryTest, HasTheQualityOfEachVariant) {
 TEST_F(LibraryTest, TellsWhatVariantsMakeOfThePixels) {
   make_panoramas();
   write_text(folder / "own.yaml",
-             "shoal: 1\noutput: own\npanoramas: [{file: a.hdr, exposure: 1}]\nvariants: {plain: "
+             "shoal: 1\noutput: own\npanoramas: [{file: a.hdr, exposure: 1, frame: "
+             "openexr}]\nvariants: {plain: "
              "{}, dim: {exposure: -2}, soft: {window: hann}, both: {rotate: {pitch: 30}, matrix: "
              "[[0, 1, 0], [0.5, 0, 0], [0, 0, 1]]}, rest: {dominant: remove}}\n");
   const Finished finished = shoal({"run", (folder / "own.yaml").string()});
   ASSERT_EQ(finished.exit_status, 0) << finished.err;
   const Library library = loaded({folder / "own"});
   ASSERT_THAT(names_of(library), ElementsAre("a", "a.dim", "a.soft", "a.both", "a.rest"));
+  EXPECT_EQ(frame_of(library), *parse_frame("openexr"));
   const auto change = [&](std::size_t i) { return library.panoramas[i].change; };
   EXPECT_EQ(change(0), (LightChange{glm::dmat3(2.0), glm::dmat3(1.0)}));
   EXPECT_EQ(change(1), (LightChange{glm::dmat3(0.25), glm::dmat3(1.0)}));
@@ -167,7 +168,8 @@ TEST_F(LibraryTest, TellsWhatVariantsMakeOfThePixels) {
   // Columns: red goes to green by half, green to red; twice, for the entry's exposure.
   EXPECT_EQ(change(3),
             (LightChange{glm::dmat3(0, 1, 0, 2, 0, 0, 0, 0, 2), *turn_matrix({0.0, 30.0, 0.0})}));
-  EXPECT_FALSE(change(4));
+  EXPECT_FALSE(change(4).is_whole);
+  EXPECT_EQ(change(4).colour, glm::dmat3(2.0)) << "it is exposed like the others";
 }
 
 // The pixels of a file lack the lights beside it, and have the sun that was taken out.
@@ -187,7 +189,7 @@ TEST_F(LibraryTest, TellsWherePixelsAreNotTheWholeLight) {
   ASSERT_EQ(library.panoramas.size(), 6U);
   const bool whole[] = {false, false, true, true, false, true};
   for (std::size_t i = 0; i < 6; ++i) {
-    EXPECT_EQ(library.panoramas[i].change.has_value(), whole[i]) << library.panoramas[i].name;
+    EXPECT_EQ(library.panoramas[i].change.is_whole, whole[i]) << library.panoramas[i].name;
   }
 }
 
