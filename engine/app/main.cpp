@@ -26,11 +26,13 @@ constexpr const char* kFooter =
     "  pixels     degree, quadrature, layout (equirect, cube maps, angular map, mirror ball,\n"
     "             octahedral), layer, part, encoding, rgbe_decode, nonfinite, negative,\n"
     "             clamp (by value or percentile), sun\n"
-    "  light      exposure, scale, matrix, white, rotate, dominant, window (hann, lanczos, gauss,\n"
-    "             laplacian, auto: nothing negative), frame, quality\n"
+    "  light      mirror, exposure, scale, matrix, white, rotate, dominant, window (hann, "
+    "lanczos,\n"
+    "             gauss, laplacian, auto: nothing negative), frame, quality\n"
     "  the whole  vars, include, output, defaults, variants (views: many turns), quantities,\n"
     "             tables (csv, json, npy, quality, lights), maps in every layout,\n"
-    "             exports for engines (`shoal profiles` lists them)\n\n"
+    "             exports for engines, ZH3 and non-linear degree 1 among them (`shoal "
+    "profiles`)\n\n"
     "Exit status: 0 all well; 1 a panorama failed or a check found something; 2 usage or manifest\n"
     "error, nothing run; 130 interrupted, finished work kept.\n";
 
@@ -44,7 +46,7 @@ constexpr Command kCommands[] = {
      shoal::add_run_options},
     {"project", "Print the coefficients of panoramas; nothing is written",
      shoal::add_project_options},
-    {"quality", "Print how well coefficients stand for panoramas, and what light these hold",
+    {"quality", "Print how well coefficients stand for panoramas, by Parseval or brute force",
      shoal::add_quality_options},
     {"check", "Validate a manifest; print the plan and why each panorama would run",
      shoal::add_check_options},

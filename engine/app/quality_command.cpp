@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <atomic>
+#include <charconv>
 #include <cstdio>
 #include <functional>
 #include <memory>
@@ -41,11 +42,25 @@ struct QualityChoice {
   bool json = false;
 };
 
-Result<WindowKey> window_named(const std::string& name) {
-  if (name == "auto") return WindowKey{WindowFit::automatic, {}};
-  const Result<WindowKind> kind = parse_window_kind(name);
-  if (kind) return WindowKey{WindowFit::given, {*kind, {}}};
-  return Error{ErrorCode::usage, kind.error().what, "--window", kind.error().hint + "; or auto"};
+// "KIND" or "KIND:PARAMETER".
+Result<WindowKey> window_named(const std::string& text) {
+  if (text == "auto") return WindowKey{WindowFit::automatic, {}};
+  const std::size_t colon = text.find(':');
+  const Result<WindowKind> kind = parse_window_kind(text.substr(0, colon));
+  if (!kind) {
+    return Error{ErrorCode::usage, kind.error().what, "--window", kind.error().hint + "; or auto"};
+  }
+  DegreeWindow window{*kind, {}};
+  if (colon == text.npos) return WindowKey{WindowFit::given, window};
+  const char* const end = text.data() + text.size();
+  double parameter = 0.0;
+  const auto [rest, code] = std::from_chars(text.data() + colon + 1, end, parameter);
+  if (code != std::errc() || rest != end || !(parameter > 0.0) || *kind == WindowKind::none) {
+    return Error{ErrorCode::usage, text + " is no window with a number above 0", "--window",
+                 "such as hann:4"};
+  }
+  window.parameter = parameter;
+  return WindowKey{WindowFit::given, window};
 }
 
 Result<QualityChoice> understand(const QualityCommand& command) {
@@ -193,10 +208,11 @@ void add_quality_options(CLI::App& command, Action& action) {
                   "Degree to which the exact irradiance is known, 32 by default; above L")
       ->check(CLI::Range(0, kMaxDegree));
   command.add_option("--window", options->window,
-                     "none (the default), hann, lanczos, gauss, laplacian or auto");
+                     "none (the default), hann, lanczos, gauss, laplacian or auto; with its "
+                     "parameter as hann:4");
   command.add_flag("--brute-force", options->brute_force,
                    "Errors against the hemisphere integral over all texels: slow, without any "
-                   "harmonics");
+                   "harmonics; equirect pictures only");
   command
       .add_option("--rows", options->rows,
                   "Of --brute-force: R x 2R directions, 129 rows by default; time grows with R^2")

@@ -93,6 +93,7 @@ std::string light_text(const EntrySettings& settings, const Variant& variant) {
               ? " window auto"
               : fmt::format(" window {}", name_of(window.window.kind));
   if (window.window.parameter) text += fmt::format(" {}", *window.window.parameter);
+  text += mirror_of(settings, variant) == glm::dmat3(1.0) ? "" : " mirrored";
   text += fmt::format(" dominant {}", name_in(kDominantChoices, dominant_of(settings, variant)));
   return text + "\n";
 }

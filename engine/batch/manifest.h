@@ -58,8 +58,12 @@ enum class DominantPart {
   only,    // the directional light
 };
 
+// Whether the picture is the mirror image of its scene, as a photograph of a mirror ball is.
+enum class Mirror { none, left_right };
+
 // What is linear, so that it waits for the coefficients: the keys of an entry and of a variant.
 struct LinearKeys {
+  std::optional<Mirror> mirror;
   std::optional<double> exposure_stops;
   std::optional<double> scale;
   std::optional<glm::dmat3> matrix;
@@ -154,6 +158,9 @@ struct Variant {
 // What a panorama's colours go through in a variant, and the frame it is told in.
 [[nodiscard]] ColourOperations colour_of(const EntrySettings& settings, const Variant& variant);
 [[nodiscard]] Frame frame_of(const EntrySettings& settings, const Variant& variant);
+
+// What turns the pixels' directions into those of the scene: a reflection, or the identity.
+[[nodiscard]] glm::dmat3 mirror_of(const EntrySettings& settings, const Variant& variant);
 
 // The rotation of a variant, its view included, in the native frame; the identity where it has
 // none. Error: usage (no rotation).

@@ -111,6 +111,21 @@ bool has_key(const YAML::Node& node, std::string_view key) {
   });
 }
 
+// What is done to the samples of a file. Defaults may have it; light without a file is left alone.
+bool check_no_pixel_keys(const ManifestReader& reader, const YAML::Node& node,
+                         std::string_view what, EntrySettings& settings) {
+  bool is_right = true;
+  for (const std::string_view key : {"clamp", "sun"}) {
+    if (!has_key(node, key)) continue;
+    reader.error(node, fmt::format("{} is for the pixels of a file, not for {}", key, what),
+                 "leave it out");
+    is_right = false;
+  }
+  settings.projection.sun = {};
+  settings.projection.pixels = {};
+  return is_right;
+}
+
 // An entry without a file: a sky, or lights alone.
 bool check_fileless_keys(const ManifestReader& reader, const YAML::Node& node, EntryText& entry) {
   EntrySettings& settings = entry.settings;
@@ -128,6 +143,7 @@ bool check_fileless_keys(const ManifestReader& reader, const YAML::Node& node, E
                  "say file: PATH, or add lights");
   }
   const bool has_light = is_sky ? settings.sky.has_value() : !settings.lights.empty();
+  if (!check_no_pixel_keys(reader, node, what, settings)) return false;
   return entry.name && entry.exclude.empty() && has_light;
 }
 

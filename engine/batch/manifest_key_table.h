@@ -196,6 +196,10 @@ inline constexpr Choice<RgbeDecode> kRgbeDecodeChoices[] = {{"floor", RgbeDecode
 inline constexpr Choice<Encoding> kEncodingChoices[] = {{"srgb", Encoding::srgb},
                                                         {"linear", Encoding::linear}};
 
+// The words for how a picture may be mirrored.
+inline constexpr Choice<Mirror> kMirrorChoices[] = {{"none", Mirror::none},
+                                                    {"left-right", Mirror::left_right}};
+
 // The words for what a variant keeps of its dominant light.
 inline constexpr Choice<DominantPart> kDominantChoices[] = {
     {"keep", DominantPart::keep}, {"remove", DominantPart::remove}, {"only", DominantPart::only}};

@@ -39,6 +39,15 @@ Result<glm::dmat3> turn_of(const EntrySettings& settings, const Variant& variant
   return matrix;
 }
 
+// The picture's right is -y.
+glm::dmat3 mirror_of(const EntrySettings& settings, const Variant& variant) {
+  const Mirror mirror =
+      variant.linear.mirror.value_or(settings.linear.mirror.value_or(Mirror::none));
+  glm::dmat3 matrix(1.0);
+  if (mirror == Mirror::left_right) matrix[1][1] = -1.0;
+  return matrix;
+}
+
 bool asks_for(const Manifest& manifest, FigureTable table) {
   return std::ranges::find(manifest.figure_tables, table) != manifest.figure_tables.end();
 }

@@ -72,6 +72,11 @@ std::optional<Frame> read_frame(const ManifestReader& reader, const Field& field
 namespace {
 
 const ManifestKeyRule<LinearKeys> kLinearRules[] = {
+    {"mirror",
+     [](const ManifestReader& reader, const Field& field, LinearKeys& keys) {
+       assign(reader.choice<Mirror>(field, kMirrorChoices), keys.mirror);
+     },
+     choice_names<kMirrorChoices>},
     {"exposure",
      [](const ManifestReader& reader, const Field& field, LinearKeys& keys) {
        assign(reader.number(field, kStops), keys.exposure_stops);

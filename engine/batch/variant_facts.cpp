@@ -27,7 +27,7 @@ Result<std::vector<VariantFacts>> variant_facts(const Manifest& manifest) {
       SHOAL_ASSIGN_OR_RETURN(colour, combined_matrix(colour_of(settings, variant)));
       SHOAL_ASSIGN_OR_RETURN(turn, turn_of(settings, variant));
       fact.colour = colour;
-      fact.turn = turn;
+      fact.turn = turn * mirror_of(settings, variant);
       fact.frame = frame_of(settings, variant);
       fact.is_whole = pixels_are_whole(settings, variant);
       if (fact == VariantFacts{}) continue;

@@ -47,10 +47,12 @@ Coefficients part_of(Coefficients light, DominantPart part, int degree) {
 }
 
 // All but the turn and the window.
-Result<Coefficients> unturned(const Coefficients& radiance, const EntrySettings& settings,
+Result<Coefficients> unturned(Coefficients radiance, const EntrySettings& settings,
                               const Variant& variant) {
+  const glm::dmat3 mirror = mirror_of(settings, variant);
+  if (mirror != glm::dmat3(1.0)) radiance = rotate(radiance, mirror);
   SHOAL_ASSIGN_OR_RETURN(matrix, combined_matrix(colour_of(settings, variant)));
-  return apply_matrix(with_lights(radiance, settings), matrix);
+  return apply_matrix(with_lights(std::move(radiance), settings), matrix);
 }
 
 // All but the window.
@@ -71,9 +73,10 @@ Result<std::vector<double>> VariantLights::gains_of(const Variant& variant) {
   if (key.fit != WindowFit::automatic) return window_gains(key.window, degree);
 
   SHOAL_ASSIGN_OR_RETURN(matrix, combined_matrix(colour_of(settings, variant)));
+  const glm::dmat3 mirror = mirror_of(settings, variant);
   const DominantPart dominant = dominant_of(settings, variant);
   for (const Fit& fit : fits_) {
-    if (fit.matrix == matrix && fit.dominant == dominant) return fit.gains;
+    if (fit.matrix == matrix && fit.mirror == mirror && fit.dominant == dominant) return fit.gains;
   }
   SHOAL_ASSIGN_OR_RETURN(light, unturned(projection_.radiance, settings, variant));
   auto window = fit_window(part_of(std::move(light), dominant, settings.projection.degree));
@@ -82,7 +85,7 @@ Result<std::vector<double>> VariantLights::gains_of(const Variant& variant) {
     error.where = entry_.name + (variant.name.empty() ? "" : ", variant " + variant.name);
     return error;
   }
-  fits_.push_back({matrix, dominant, std::move(window->gains)});
+  fits_.push_back({matrix, mirror, dominant, std::move(window->gains)});
   return fits_.back().gains;
 }
 
@@ -116,7 +119,7 @@ Result<LightRecord> standout_lights(const Projection& projection, const Panorama
   record.frame = frame_of(settings, plain);
   record.sun = projection.sun;
   if (record.sun) {
-    record.sun->direction = turn * record.sun->direction;
+    record.sun->direction = turn * mirror_of(settings, plain) * record.sun->direction;
     record.sun->irradiance = matrix * record.sun->irradiance;
     record.sun->flux = matrix * record.sun->flux;
   }

@@ -26,9 +26,9 @@ class VariantLights {
   VariantLights(const Projection& projection, const PanoramaEntry& entry)
       : projection_(projection), entry_(entry) {}
 
-  // In this order: the file's light and the entry's lights together, white balance, matrix, scale
-  // and exposure, the rotation, the dominant light taken out or alone, the window. What is not
-  // asked for leaves the bits as they are; so do the variants that were asked before.
+  // In this order: the file's light, mirrored, and the entry's lights together, white balance,
+  // matrix, scale and exposure, the rotation, the dominant light taken out or alone, the window.
+  // What is not asked for leaves the bits as they are; so do the variants that were asked before.
   // Errors: usage (linear keys that make no sense; an automatic window of light whose mean is not
   // positive).
   Result<VariantLight> in(const Variant& variant);
@@ -41,6 +41,7 @@ class VariantLights {
  private:
   struct Fit {
     glm::dmat3 matrix;  // of the colours
+    glm::dmat3 mirror;  // of the file's light, to which others are added
     DominantPart dominant;
     std::vector<double> gains;
   };

@@ -75,11 +75,13 @@ Error unknown_name(std::string_view text, std::string_view plain) {
   std::vector<std::string_view> names;
   for (const FrameAlias& alias : kAliases) names.push_back(alias.name);
   const std::string_view near = closest_match(plain, names);
+  std::string known;
+  for (const std::string_view name : names) known += std::string(name) + ", ";
   return Error{ErrorCode::usage, "unknown frame " + quoted(text), "",
-               near.empty()
-                   ? "name one such as openexr, or say where the picture's centre, right and "
-                     "up point, such as +z,-x,+y"
-                   : "did you mean " + quoted(near) + "?"};
+               near.empty() ? "name one of " + known +
+                                  "or say where the picture's centre, right and up point, such as "
+                                  "+z,-x,+y"
+                            : "did you mean " + quoted(near) + "?"};
 }
 
 SignedAxis opposite(const SignedAxis& axis) { return {axis.axis, -axis.sign}; }

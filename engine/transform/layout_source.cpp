@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <optional>
 #include <utility>
 
@@ -70,11 +71,23 @@ void choose_by_aspect(LaidOutPicture& picture) {
   }
 }
 
+// Equirect is what nobody asked for, perhaps. A crop of a hundredth is no other layout.
+void doubt_by_aspect(LaidOutPicture& picture) {
+  const PictureInfo& info = picture.source->info();
+  if (std::abs(info.width - 2 * info.height) * 100 <= info.width) return;
+  picture.notes.push_back(
+      fmt::format("its {} x {} pixels are not twice as wide as high, as an equirect panorama is; "
+                  "another layout "
+                  "must be named, or be found by layout auto",
+                  info.width, info.height));
+}
+
 void choose_layout(Layout asked, LaidOutPicture& picture) {
   const EnvironmentMap environment = picture.source->info().environment;
   if (environment == EnvironmentMap::unsaid) {
     picture.layout = asked;
     if (asked == Layout::automatic) choose_by_aspect(picture);
+    if (asked == Layout::equirect) doubt_by_aspect(picture);
     return;
   }
   picture.layout = layout_of(environment);

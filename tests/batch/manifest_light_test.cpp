@@ -146,5 +146,26 @@ TEST_F(ManifestLights, ViewsSpreadAVariant) {
   EXPECT_THAT(messages(one + "variants: {x: {views: 0}}\n"), HasSubstr("from 1 to 10000"));
 }
 
+// Samples are a file's: an entry without one must not seem to have its sun taken out. Defaults are
+// for files, too.
+TEST_F(ManifestLights, SunAndClampAreForFiles) {
+  const std::string begin = "shoal: 1\ndefaults: {clamp: 3, sun: {top: 0.001}}\npanoramas:\n";
+  const std::string sky = "{name: a, sky: {sun: {elevation: 3}}";
+  const std::string lights = "{name: b, lights: [{ambient: {radiance: 1}}]";
+  EXPECT_THAT(load(begin + "  - " + sky + ", sun: {top: 0.01}}\n").messages,
+              HasSubstr("sun is for the pixels of a file, not for a sky"));
+  EXPECT_THAT(load(begin + "  - " + lights + ", clamp: 1}\n").messages,
+              HasSubstr("clamp is for the pixels of a file, not for lights alone"));
+  touch({"a.hdr"});
+  const ManifestResult result =
+      load(begin + "  - {file: a.hdr, name: c}\n  - " + sky + "}\n  - " + lights + "}\n");
+  ASSERT_TRUE(result.manifest) << result.messages;
+  for (const PanoramaEntry& entry : result.manifest->entries) {
+    const ProjectionSettings& projection = entry.settings->projection;
+    EXPECT_EQ(projection.sun.asked(), entry.name == "c") << entry.name;
+    EXPECT_EQ(projection.pixels.clamp > 0.0, entry.name == "c") << entry.name;
+  }
+}
+
 }  // namespace
 }  // namespace shoal

@@ -27,7 +27,7 @@ m.yaml:4:1: error: unknown key "degree" in the manifest's top level
     ^ it belongs to a panorama or defaults
 m.yaml:7:19: error: unknown key "zzz" in a variant
     variants: {soft: {zzz: 1}}
-                      ^ known here: exposure, scale, matrix, white, frame, rotate, window, dominant, views
+                      ^ known here: mirror, exposure, scale, matrix, white, frame, rotate, window, dominant, views
 )");
 }
 

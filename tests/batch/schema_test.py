@@ -24,10 +24,9 @@ tables: [csv, quality]
 panoramas:
   - {files: ["${library}/*.hdr", x.exr], exclude: "*_t*", tags: [a], degree: "${degree}"}
   - {file: a.hdr, name: key, exposure: "${stops}", frame: {center: +z, right: -x, up: +y}, rotate: {yaw: 90}}
+  - {file: ball.exr, layout: mirror-ball, mirror: left-right, sun: {top: 0.001, action: replace}, clamp: {percentile: 99.9}}
   - name: lamp
     window: auto
-    sun: {top: 0.001, action: replace}
-    clamp: {percentile: 99.9}
     lights: [{disk: {direction: [0, 0, 1], radius: 10, radiance: 5}}, {ambient: {radiance: [1, 1, 1]}}]
   - {name: noon, sky: {turbidity: 3, sun: {elevation: 55, azimuth: "${east}"}, ground: [0.2, 0.3, 0.1], size: [64, 32]}}
   - {name: dusk, sky: {sun: {elevation: 1}}, lights: [{ambient: {radiance: 1}}], picture: {format: hdr}}
@@ -58,19 +57,22 @@ MISTAKES = {
     "white of two": (("panoramas", 1, "white"), [1, 1]),
     "matrix of two rows": (("panoramas", 1, "matrix"), [[1, 0, 0], [0, 1, 0]]),
     "frame without up": (("panoramas", 1, "frame", "up"), None),
-    "lights without a name": (("panoramas", 2, "name"), None),
-    "light of two kinds": (("panoramas", 2, "lights", 1, "cosine"), {"direction": [0, 0, 1], "radiance": 1}),
-    "disk without radius": (("panoramas", 2, "lights", 0, "disk", "radius"), None),
-    "no such light": (("panoramas", 2, "lights", 0, "lamp"), {}),
-    "sky without a name": (("panoramas", 3, "name"), None),
-    "sky without a sun": (("panoramas", 3, "sky", "sun"), None),
-    "sun without elevation": (("panoramas", 3, "sky", "sun", "elevation"), None),
-    "sun below the horizon": (("panoramas", 3, "sky", "sun", "elevation"), -3),
-    "sky too clear": (("panoramas", 3, "sky", "turbidity"), 1.5),
-    "albedo above 1": (("panoramas", 3, "sky", "ground"), 1.5),
+    "lights without a name": (("panoramas", 3, "name"), None),
+    "light of two kinds": (("panoramas", 3, "lights", 1, "cosine"), {"direction": [0, 0, 1], "radiance": 1}),
+    "disk without radius": (("panoramas", 3, "lights", 0, "disk", "radius"), None),
+    "no such light": (("panoramas", 3, "lights", 0, "lamp"), {}),
+    "clamp of lights": (("panoramas", 3, "clamp"), 3),
+    "sun of a sky": (("panoramas", 4, "sun"), {"top": 0.001}),
+    "mirrored otherwise": (("panoramas", 2, "mirror"), "up-down"),
+    "sky without a name": (("panoramas", 4, "name"), None),
+    "sky without a sun": (("panoramas", 4, "sky", "sun"), None),
+    "sun without elevation": (("panoramas", 4, "sky", "sun", "elevation"), None),
+    "sun below the horizon": (("panoramas", 4, "sky", "sun", "elevation"), -3),
+    "sky too clear": (("panoramas", 4, "sky", "turbidity"), 1.5),
+    "albedo above 1": (("panoramas", 4, "sky", "ground"), 1.5),
     "sky in a file": (("panoramas", 1, "sky"), {"sun": {"elevation": 3}}),
     "picture of a file": (("panoramas", 1, "picture"), {}),
-    "png picture": (("panoramas", 4, "picture", "format"), "png"),
+    "png picture": (("panoramas", 5, "picture", "format"), "png"),
     "sky in defaults": (("defaults",), {"sky": {"sun": {"elevation": 3}}}),
     "axis without angle": (("panoramas", 1, "rotate"), {"axis": [0, 0, 1]}),
     "two rotations in one": (("panoramas", 1, "rotate"), {"yaw": 1, "quaternion": [1, 0, 0, 0]}),
@@ -80,7 +82,7 @@ MISTAKES = {
     "sun too large": (("panoramas", 1, "sun"), {"top": 0.1}),
     "no such action": (("panoramas", 1, "sun"), {"top": 0.001, "action": "hide"}),
     "no such part": (("variants", "dark", "dominant"), "none"),
-    "no such window": (("panoramas", 2, "window"), "hanning"),
+    "no such window": (("panoramas", 3, "window"), "hanning"),
     "views in an entry": (("panoramas", 1, "views"), 3),
     "views without count": (("variants", "set"), {"views": {"over": "all"}}),
     "degree in a variant": (("variants", "dark", "degree"), 3),

@@ -5,7 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "batch/library_folder.h"
 #include "output/coefficient_table.h"
@@ -92,14 +96,64 @@ TEST_F(VariantLightTest, ViewsTurnThePanorama) {
   }
 }
 
-// The table of a variant is the same whether it is asked for alone or with others.
+// The tables of a variant are the same whether it is asked for alone or with others.
 TEST_F(VariantLightTest, VariantsDoNotDisturbOneAnother) {
   write_panorama("lib/a.hdr", 1);
-  const std::string soft = "soft: {window: auto, rotate: {pitch: 30}, exposure: 0.7}";
-  run(library("variants: {" + soft + "}\n"));
-  const CoefficientRecord alone = record("a", "soft");
-  run(library("variants: {plain: {}, " + soft + ", other: {window: hann}, set: {views: 5}}\n"));
-  EXPECT_EQ(record("a", "soft"), alone);
+  const std::vector<std::pair<std::string, std::string>> variants = {
+      {"soft", "{window: auto, rotate: {pitch: 30}, exposure: 0.7}"},
+      {"rest", "{dominant: remove, mirror: left-right}"},
+      {"set", "{views: {count: 3, over: all}, window: auto}"}};
+  const auto rows_of = [&](const std::string& name) {  // of the table of quality
+    std::ifstream table(folder_ / "out/quality.csv");
+    std::vector<std::string> rows;
+    for (std::string row; std::getline(table, row);) {
+      if (row.find("," + name) != std::string::npos) rows.push_back(row);
+    }
+    return rows;
+  };
+  const std::string tables = "tables: [csv, quality]\n";
+  std::vector<CoefficientRecord> alone;
+  std::vector<std::vector<std::string>> figures;
+  std::string all = "variants: {plain: {}, other: {window: hann}";
+  for (const auto& [name, keys] : variants) {
+    run(library(tables + "variants: {" + name + ": " + keys + "}\n"));
+    alone.push_back(record("a", name == "set" ? "set-2" : name));
+    figures.push_back(rows_of(name));
+    all += ", " + name + ": " + keys;
+  }
+  run(library(tables + all + "}\n"));
+  for (std::size_t i = 0; i < variants.size(); ++i) {
+    const std::string& name = variants[i].first;
+    EXPECT_EQ(record("a", name == "set" ? "set-2" : name), alone[i]) << name;
+    EXPECT_FALSE(figures[i].empty());
+    EXPECT_EQ(rows_of(name), figures[i]) << name;
+  }
+}
+
+// The mirror image of f is f(x, -y, z), so L_lm of sin(|m| phi), which is odd in y, is negated. The
+// lights beside a file are where the manifest says.
+TEST_F(VariantLightTest, AMirroredPictureIsTheOtherWayRound) {
+  write_panorama("lib/a.hdr", 1);
+  const std::string lamp =
+      "defaults: {lights: [{directional: {direction: [0.3, 0.5, 1], irradiance: 2}}]}\n";
+  const std::string variants = "variants: {plain: {}, mirrored: {mirror: left-right}}\n";
+  run(library("quantities: radiance\n" + variants));
+  const Coefficients plain = record("a", "plain").coefficients;
+  const Coefficients mirrored = record("a", "mirrored").coefficients;
+  run(library("quantities: radiance\n" + lamp + variants));
+  const Coefficients lit = record("a", "plain").coefficients;
+  const Coefficients mirrored_lit = record("a", "mirrored").coefficients;
+  for (int c = 0; c < kChannelCount; ++c) {
+    for (int l = 0; l <= plain.degree; ++l) {
+      for (int m = -l; m <= l; ++m) {
+        const int i = coefficient_index(l, m);
+        const double value = plain.channels[c][i];
+        EXPECT_EQ(mirrored.channels[c][i], m < 0 ? -value : value) << l << ' ' << m;
+        EXPECT_NEAR(mirrored_lit.channels[c][i] - mirrored.channels[c][i],
+                    lit.channels[c][i] - value, 1e-12);
+      }
+    }
+  }
 }
 
 // An automatic window leaves no direction of a sun's irradiance negative; without one the least is

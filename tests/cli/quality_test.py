@@ -59,6 +59,8 @@ class Quality(ShoalTest):
         self.expect(2, "quality", "--error-degree", "65", "a.hdr")
         self.assertIn("--error-degree", self.expect(2, "quality", "--degree", "4", "--error-degree", "4", "a.hdr").err)
         self.assertIn("or auto", self.expect(2, "quality", "--window", "foo", "a.hdr").err)
+        for wrong in ("hann:", "hann:x", "hann:-1", "hann:4x", "none:4"):
+            self.assertIn("hann:4", self.expect(2, "quality", "--window", wrong, "a.hdr").err)
         self.assertIn("missing.hdr", self.expect(1, "quality", "missing.hdr", "a.hdr").err)
 
     def test_the_table_of_a_run(self):
