@@ -16,7 +16,7 @@
 namespace shoal {
 
 // The version of the computation: pixels to coefficients, and coefficients to files.
-inline constexpr int kAlgorithmVersion = 2;
+inline constexpr int kAlgorithmVersion = 3;
 
 // What the projection of a panorama's pixels depends on besides its file.
 struct ProjectionParameters {

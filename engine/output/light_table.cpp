@@ -28,7 +28,7 @@ void add(std::string& line, const Sun& sun, const glm::dmat3& to_frame) {
   add(line, to_frame * sun.direction);
   add(line, glm::degrees(sun.angular_radius));
   add(line, sun.irradiance);
-  add(line, sun.mean_radiance());
+  add(line, sun.disk().radiance);
   add(line, sun.solid_angle);
   add(line, sun.share);
   line += fmt::format(",{}", sun.texel_count);

@@ -5,9 +5,9 @@
 // Rec.709.
 //   panorama
 //   sun_x sun_y sun_z         the sun found in the pixels (sphere/sun.h): unit direction
-//   sun_radius                degrees of arc, as the radius of a disk in a manifest
+//   sun_radius                degrees of arc, of its disk, as the radius of a disk in a manifest
 //   sun_r sun_g sun_b         irradiance of a surface that faces it
-//   sun_radiance_r .. _b      mean radiance
+//   sun_radiance_r .. _b      of that disk, which has the sun's flux
 //   sun_solid_angle sun_share sun_texels sun_level
 //   dominant_x .. _z          the directional light of sphere/dominant_light.h, of all degrees
 //   dominant_r .. _b          irradiance of a surface that faces it

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <unordered_map>
 #include <utility>
 
@@ -71,6 +70,26 @@ glm::dvec3 vector_of(const std::array<float, kMaxChannels>& samples) {
   return {samples[0], samples[1], samples[2]};
 }
 
+// Of a texel's light in the mean over the sun's: its flux above the level in the largest channel,
+// which no colour space changes and which is above 0.
+double weight(const BrightTexel& texel, const Texel& place, double level) {
+  return place.solid_angle * (texel.value() - level);
+}
+
+// The mean of texel_spread() about the sun's direction.
+double spread(const BrightestTexels& bright, const FoundSun& found, const TexelPlaces& places) {
+  double sum = 0.0;
+  double weights = 0.0;
+  for (const std::size_t i : found.members) {
+    const BrightTexel& texel = bright.texels[i];
+    const Texel place = places.texel(texel.row, texel.column);
+    const double own = weight(texel, place, found.sun.level);
+    sum += own * texel_spread(place.direction, found.sun.direction, place.solid_angle);
+    weights += own;
+  }
+  return sum / weights;
+}
+
 }  // namespace
 
 BrightTexel lowered(const BrightTexel& texel, float level) {
@@ -98,7 +117,6 @@ Result<FoundSun> find_sun(const BrightestTexels& bright, const SunSettings& sett
   Sun& sun = found.sun;
   sun.level = level;
   sun.texel_count = static_cast<std::int64_t>(found.members.size());
-  // Weighted by the largest channel, that no colour space changes and that is above 0.
   glm::dvec3 centroid(0.0);
   glm::dmat3 flux_by_axis(0.0);  // column k: flux times component k of the direction
   for (const std::size_t i : found.members) {
@@ -107,13 +125,12 @@ Result<FoundSun> find_sun(const BrightestTexels& bright, const SunSettings& sett
                                                  vector_of(lowered(texels[i], level).samples));
     sun.solid_angle += texel.solid_angle;
     sun.flux += flux;
-    centroid += texel.solid_angle * (texels[i].value() - level) * texel.direction;
+    centroid += weight(texels[i], texel, level) * texel.direction;
     for (int axis = 0; axis < 3; ++axis) flux_by_axis[axis] += flux * texel.direction[axis];
   }
   sun.direction = glm::normalize(centroid);
   sun.irradiance = flux_by_axis * sun.direction;
-  // 2 pi (1 - cos a), by the half angle so that small ones lose nothing.
-  sun.angular_radius = 2.0 * std::asin(std::sqrt(sun.solid_angle / (4.0 * std::numbers::pi)));
+  sun.angular_radius = disk_radius(spread(bright, found, places));
   return found;
 }
 

@@ -43,19 +43,112 @@ TEST_F(BrightLight, FindsTheSunWhereverItIs) {
       EXPECT_LT(glm::length(sun.direction - direction), 0.3 * kPi / kHeight);
       EXPECT_NEAR(sun.angular_radius, kRadius, 0.1 * kRadius);
       EXPECT_EQ(sun.level, 1.0);
-      const double solid_angle = 2.0 * kPi * (1.0 - std::cos(sun.angular_radius));
-      EXPECT_NEAR(sun.solid_angle, solid_angle, 1e-12);
+      const double solid_angle = 2.0 * kPi * (1.0 - std::cos(kRadius));
+      EXPECT_NEAR(sun.solid_angle, solid_angle, 0.2 * solid_angle);
+      const DiskLight disk = sun.disk();
       for (int c = 0; c < 3; ++c) {
         const double radiance = (c == 0 ? 1001.0 : c == 1 ? 501.0 : 201.0) * (1000.0 / 1001.0);
-        EXPECT_NEAR(sun.mean_radiance()[c], radiance, 1e-4);
-        // pi sin^2(a) for a disk; the rim of texels is another by h/a of a term a^2/4.
-        EXPECT_NEAR(sun.irradiance[c] / radiance, kPi * std::pow(std::sin(sun.angular_radius), 2),
-                    1e-4 * solid_angle);
+        EXPECT_NEAR(sun.flux[c] / sun.solid_angle, radiance, 1e-4);
+        EXPECT_NEAR(disk.radiance[c], radiance, 0.2 * radiance);
+        // The disk's is pi sin^2(a) of its radiance. That of texels told as points is larger by the
+        // spread of a texel, solid_angle/(4 pi) of the flux.
+        const double of_disk = kPi * std::pow(std::sin(disk.angular_radius), 2) * disk.radiance[c];
+        EXPECT_NEAR(sun.irradiance[c] / of_disk, 1.0, std::pow(kPi / kHeight, 2) / (4 * kPi));
       }
       const double taken = luminance(sun.flux);
       EXPECT_NEAR(sun.share, taken / (taken + 4 * kPi), 0.002) << "the level behind is not 1";
     }
   }
+}
+
+// Radiance 1, and around d disks of a radius and a radiance each, that add up. A texel holds the
+// mean over 16 x 16 places in it.
+struct PaintedDisk {
+  double radius;
+  double radiance;
+};
+Picture disks(int height, const glm::dvec3& d, const std::vector<PaintedDisk>& painted) {
+  constexpr int kPlaces = 16;
+  const double side = kPi / height;
+  const auto cosine = [&](double i, double j) {
+    const double theta = side * i, phi = side * j;
+    return glm::dot(d, glm::dvec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                                  std::cos(theta)));
+  };
+  return make_picture(2 * height, height, [&](int, int i, int j) {
+    double sum = 0.0;
+    for (const PaintedDisk& disk : painted) {
+      const double reach = disk.radius + side;
+      if (cosine(i + 0.5, j + 0.5) < std::cos(reach)) continue;
+      int inside = 0;
+      for (int k = 0; k < kPlaces * kPlaces; ++k) {
+        inside += cosine(i + (k / kPlaces + 0.5) / kPlaces, j + (k % kPlaces + 0.5) / kPlaces) >
+                  std::cos(disk.radius);
+      }
+      sum += disk.radiance * inside / (kPlaces * kPlaces);
+    }
+    return 1.0 + sum;
+  });
+}
+
+// Painting moves what a texel of side h holds to its centre. With x_i the centres, c_i what of a
+// texel's area w the disk covers and e_i from its centre to that part's, the disk's second moment
+// is
+//   sum c_i w |x_i|^2 + sum c_i w (2 x_i . e_i + |e_i|^2) + those of the parts about themselves.
+// Whole texels have e = 0 and h^2/6 about themselves; the radius counts them with h^2/(2 pi), that
+// is 0.015 h^2 less of a^2. On the rim c |e| is at most h/8, towards the centre, and at most 8 a/h
+// + 4 texels lie on it: 2 a h^2 (h/8) (8 a/h + 4) of pi a^2 (a^2/2), or 1.3 h^2 (1 + h/(2 a)) of
+// a^2. So
+//   -0.02 h^2 < r^2 - a^2 < 1.5 h^2    for a >= 4 h,
+// a radius right to 0.75 h^2/a.
+TEST_F(BrightLight, ASunsRadiusIsThatOfThePaintedDisk) {
+  for (const int height : {128, 256, 512}) {
+    const double side = kPi / height;
+    for (const double texels : {4.0, 5.5, 7.0}) {
+      for (const glm::dvec3 d :
+           {glm::dvec3(1, 0, 0), glm::dvec3(0.4, -0.5, 0.6), glm::dvec3(0.02, 0.01, -1)}) {
+        const double radius = texels * side;
+        const auto path = write(disks(height, glm::normalize(d), {{radius, 1000.0}}), "disk");
+        const Projection result = project(path, sun_of({0.0, 1.0}));
+        ASSERT_TRUE(result.sun) << testing::PrintToString(result.warnings);
+        const double found = result.sun->angular_radius;
+        EXPECT_GT(found * found, radius * radius - 0.02 * side * side) << height << " " << texels;
+        EXPECT_LT(found * found, radius * radius + 1.5 * side * side) << height << " " << texels;
+      }
+    }
+  }
+}
+
+// A sun of one texel is the cap of its solid angle.
+TEST_F(BrightLight, ASunOfOneTexelIsAsLargeAsTheTexel) {
+  Picture picture = make_picture(64, 32, [](int, int, int) { return 1.0; });
+  for (int c = 0; c < 3; ++c) picture.at(c, 16, 20) = 100.0F;
+  const Projection result = project(write(picture, "one"), sun_of({0.0, 2.0}));
+  ASSERT_TRUE(result.sun);
+  EXPECT_NEAR(2.0 * kPi * (1.0 - std::cos(result.sun->angular_radius)), result.sun->solid_angle,
+              1e-12);
+}
+
+// Spreads add by their fluxes: a disk of spread s = 1 - cos(a) that gives F, in one of spread t
+// that gives G, has (F s + G t)/(F + G), whatever the texels above the level cover: here the larger
+// one and the texels on its rim, three times r. The texels add as above, to either.
+TEST_F(BrightLight, AFaintGlowIsNotTheSun) {
+  constexpr int kHeight = 512;
+  constexpr double kSun = 0.03, kGlow = 0.15, kSunlight = 5000.0, kGlowLight = 4.0;
+  const double side = kPi / kHeight;
+  const auto path =
+      write(disks(kHeight, {0, -1, 0}, {{kSun, kSunlight}, {kGlow, kGlowLight}}), "glow");
+  const Projection result = project(path, sun_of({0.0, 1.0}));
+  ASSERT_TRUE(result.sun) << testing::PrintToString(result.warnings);
+  const double sun = 1.0 - std::cos(kSun), glow = 1.0 - std::cos(kGlow);
+  const double spread =
+      (kSunlight * sun * sun + kGlowLight * glow * glow) / (kSunlight * sun + kGlowLight * glow);
+  const double square = std::pow(std::acos(1.0 - spread), 2);
+  EXPECT_LT(square, kGlow * kGlow / 9.0) << "the two are told apart";
+  const double found = result.sun->angular_radius;
+  EXPECT_GT(found * found, square - 0.02 * side * side);
+  EXPECT_LT(found * found, square + 1.5 * side * side);
+  EXPECT_NEAR(result.sun->solid_angle, 2.0 * kPi * glow, 0.1 * 2.0 * kPi * glow);
 }
 
 struct Sunny {
