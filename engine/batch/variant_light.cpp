@@ -36,10 +36,10 @@ Coefficients without_rounding(Coefficients rest, const Coefficients& whole) {
   return rest;
 }
 
-// The light is found to `degree`, so that it is the same one however finely the rest is known.
-Coefficients part_of(Coefficients light, DominantPart part, int degree) {
+// The light is the same one however finely the rest is known.
+Coefficients part_of(Coefficients light, DominantPart part) {
   if (part == DominantPart::keep) return light;
-  auto found = dominant_light(light, degree);
+  auto found = dominant_light(light);
   if (part == DominantPart::remove) {
     return found ? without_rounding(std::move(found->residual), light) : std::move(light);
   }
@@ -61,7 +61,7 @@ Result<Coefficients> before_window(const Coefficients& radiance, const EntrySett
   SHOAL_ASSIGN_OR_RETURN(turn, turn_of(settings, variant));
   SHOAL_ASSIGN_OR_RETURN(light, unturned(radiance, settings, variant));
   if (turn != glm::dmat3(1.0)) light = rotate(light, turn);
-  return part_of(std::move(light), dominant_of(settings, variant), settings.projection.degree);
+  return part_of(std::move(light), dominant_of(settings, variant));
 }
 
 }  // namespace
@@ -79,7 +79,7 @@ Result<std::vector<double>> VariantLights::gains_of(const Variant& variant) {
     if (fit.matrix == matrix && fit.mirror == mirror && fit.dominant == dominant) return fit.gains;
   }
   SHOAL_ASSIGN_OR_RETURN(light, unturned(projection_.radiance, settings, variant));
-  auto window = fit_window(part_of(std::move(light), dominant, settings.projection.degree));
+  auto window = fit_window(part_of(std::move(light), dominant));
   if (!window) {
     Error error = std::move(window).error();
     error.where = entry_.name + (variant.name.empty() ? "" : ", variant " + variant.name);
@@ -123,7 +123,7 @@ Result<LightRecord> standout_lights(const Projection& projection, const Panorama
     record.sun->irradiance = matrix * record.sun->irradiance;
     record.sun->flux = matrix * record.sun->flux;
   }
-  if (const auto found = dominant_light(radiance, radiance.degree)) {
+  if (const auto found = dominant_light(radiance)) {
     record.dominant = {found->light, found->directionality, found->energy_share};
   }
   return record;

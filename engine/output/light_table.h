@@ -9,7 +9,7 @@
 //   sun_r sun_g sun_b         irradiance of a surface that faces it
 //   sun_radiance_r .. _b      of that disk, which has the sun's flux
 //   sun_solid_angle sun_share sun_texels sun_level
-//   dominant_x .. _z          the directional light of sphere/dominant_light.h, of all degrees
+//   dominant_x .. _z          the directional light of sphere/dominant_light.h
 //   dominant_r .. _b          irradiance of a surface that faces it
 //   directionality dominant_energy
 #pragma once

@@ -38,7 +38,7 @@ double energy(const Coefficients& coefficients, int degree) {
 
 }  // namespace
 
-std::optional<DominantLight> dominant_light(const Coefficients& radiance, int fit_degree) {
+std::optional<DominantLight> dominant_light(const Coefficients& radiance) {
   if (radiance.degree < 1) return std::nullopt;
   const glm::dvec3 vector(luminance(radiance, coefficient_index(1, 1)),
                           luminance(radiance, coefficient_index(1, -1)),
@@ -52,7 +52,7 @@ std::optional<DominantLight> dominant_light(const Coefficients& radiance, int fi
   found.light.direction = glm::normalize(vector / length);
   std::vector<double> y(coefficient_count(radiance.degree));
   Basis<double>(radiance.degree).evaluate(found.light.direction, y);
-  const int degree = std::min(fit_degree, radiance.degree);
+  const int degree = std::min(kDominantFitDegree, radiance.degree);
   found.light.irradiance = least_squares_irradiance(radiance, y, degree);
 
   found.projected = Coefficients(radiance.degree);

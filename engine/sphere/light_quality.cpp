@@ -56,7 +56,7 @@ void add_dominant_light(const Coefficients& radiance, LightQuality& quality) {
   if (radiance.degree < 1) return;
   const double mean = luminance(radiance, 0);
   if (mean > 0.0) quality.directionality = 0.0;
-  const auto found = dominant_light(radiance, radiance.degree);
+  const auto found = dominant_light(radiance);
   if (!found) {
     quality.fill_temperature = correlated_colour_temperature(mean_of(radiance));
     return;

@@ -34,7 +34,7 @@ struct LightQuality {
   // The part of each degree in sum_lm L_lm^2 over channels; empty where there is no light.
   std::vector<double> energy_shares;
 
-  // The dominant directional light (sphere/dominant_light.h, fitted to all degrees).
+  // The dominant directional light (sphere/dominant_light.h).
   struct Dominant {
     glm::dvec3 direction{0.0, 0.0, 1.0};  // unit, in the coefficients' frame
     glm::dvec3 irradiance{0.0};           // of a surface that faces it

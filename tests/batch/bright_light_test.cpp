@@ -114,7 +114,7 @@ TEST_F(BrightLightTest, TheDominantLightAndTheRestAreTheWhole) {
       "given: {dominant: keep}}\n"));
   auto found = radiance_by_variant("a");
   EXPECT_EQ(found["given"], found["all"]);
-  const auto expected = dominant_light(found["all"], 5);
+  const auto expected = dominant_light(found["all"]);
   ASSERT_TRUE(expected);
   EXPECT_EQ(found["light"], expected->projected);
   EXPECT_EQ(found["rest"], expected->residual);

@@ -61,16 +61,15 @@ TEST(LightQuality, OfAnEvenLightIsAllZerosAndOnes) {
   EXPECT_NEAR(*quality.fill_temperature, 6504, 5);
 }
 
-// Ambient a and directional e: the fit to degree L takes e + a 4 pi/(L+1)^2 for the light, since
-// sum_{l<=L} Y_lm(d)^2 = (L+1)^2/(4 pi), and leaves a (1 - 1/(L+1)^2) as the residual's mean. So
+// Ambient a and directional e: the fit to degree 2 takes e + a 4 pi/9 for the light, since
+// sum_{l<=2} Y_lm(d)^2 = 9/(4 pi), and leaves a (1 - 1/9) as the residual's mean. So
 // the fill has a's temperature whatever the key's is.
 TEST(LightQuality, TellsKeyAndFillApart) {
   const glm::dvec3 sky(0.5, 0.7, 1.0), sun(5.0, 4.0, 2.8);
   for (const int degree : {2, 4}) {
     const LightQuality quality =
         quality_of({AmbientLight{sky}, DirectionalLight{kDirection, sun}}, degree, degree);
-    const double count = coefficient_count(degree);
-    const glm::dvec3 key = sun + sky * (4 * std::numbers::pi / count);
+    const glm::dvec3 key = sun + sky * (4 * std::numbers::pi / 9);
     ASSERT_TRUE(quality.dominant && quality.key_temperature && quality.fill_temperature);
     EXPECT_NEAR(glm::length(quality.dominant->irradiance - key), 0.0, 1e-12);
     EXPECT_NEAR(*quality.key_temperature, *correlated_colour_temperature(key), 1e-7);

@@ -19,7 +19,7 @@ glm::dvec3 mean_of(const Coefficients& coefficients) {
 
 std::optional<double> dominance_of(const Coefficients& radiance) {
   if (radiance.degree < 1 || luminance(radiance, 0) <= 0.0) return std::nullopt;
-  const auto found = dominant_light(radiance, 1);
+  const auto found = dominant_light(radiance);
   return found ? found->directionality : 0.0;
 }
 

@@ -37,7 +37,7 @@ LightFigures light_figures(const Panorama& panorama) {
   figures.mean = mean_of(radiance);
   figures.mean_luminance = luminance(figures.mean);
   figures.quality = panorama.quality ? *panorama.quality : measured(radiance);
-  if (const auto dominant = dominant_light(radiance, radiance.degree)) {
+  if (const auto dominant = dominant_light(radiance)) {
     figures.direction = dominant->light.direction;
   }
   return figures;

@@ -43,7 +43,7 @@ struct Look {
 
 // Where the light mostly comes from, in the frame.
 glm::vec3 dominant_direction(const Coefficients& radiance, const Frame& frame) {
-  const auto found = dominant_light(radiance, radiance.degree);
+  const auto found = dominant_light(radiance);
   return found ? glm::vec3(native_to_frame(frame) * found->light.direction) : glm::vec3(0.0f);
 }
 
