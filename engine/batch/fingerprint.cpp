@@ -238,8 +238,8 @@ std::string output_hash(const Manifest& manifest, const PanoramaEntry& entry) {
                           name_of(map.kind), static_cast<int>(map.layout), map.width, map.height,
                           static_cast<int>(map.format), static_cast<int>(map.samples),
                           static_cast<int>(map.faces), map.preview_stops);
-      // All but cubes lie as their panoramas do, whatever the frame.
-      if (is_cube(layout_of(map))) text += frame_text(*entry.settings, variant);
+      // All others lie as their panoramas do, whatever the frame.
+      if (has_faces_of_frame(map)) text += frame_text(*entry.settings, variant);
       for (const std::string& file : map_files(manifest, entry, variant, map)) {
         text += counted(file) + "\n";
       }

@@ -48,7 +48,7 @@ MapFile map_file(const PanoramaEntry& entry, const Variant& variant, const MapRe
   if (layout != Layout::equirect) {
     file.attributes.emplace_back("shoal:layout", std::string(name_of(layout)));
   }
-  if (is_cube(layout)) file.attributes.emplace_back("shoal:frame", text_of(frame));
+  if (has_faces_of_frame(map)) file.attributes.emplace_back("shoal:frame", text_of(frame));
   return file;
 }
 
@@ -60,7 +60,7 @@ Status write_map_files(const Manifest& manifest, const MapRequest& map, const Ma
     return write_equirect_map(native, manifest.output / names.front(), file);
   }
   const Layout layout = layout_of(map);
-  const Coefficients light = is_cube(layout) ? facing(native, frame) : native;
+  const Coefficients light = has_faces_of_frame(map) ? facing(native, frame) : native;
   for (std::size_t face = 0; face < names.size(); ++face) {
     SHOAL_RETURN_IF_ERROR(write_layout_map(light, layout, static_cast<int>(face),
                                            manifest.output / names[face], file));

@@ -183,6 +183,7 @@ enum class MapLayout {
   mirror_ball,
   octahedral,
   octahedral_equal_area,
+  cube_openexr,  // EXR's envmap CUBE
 };
 enum class CubeFaces { strip, files };  // six faces side by side, or a file each
 
@@ -201,6 +202,10 @@ struct MapRequest {
 
 // The layout of the pictures that a map is made of; cube_faces where there are six.
 [[nodiscard]] Layout layout_of(const MapRequest& map);
+
+// Whether the map's faces are named by the axes of a frame: those of all cubes but cube_openexr,
+// whose frame is OpenEXR's.
+[[nodiscard]] bool has_faces_of_frame(const MapRequest& map);
 
 // A file for another program, for every panorama and variant.
 struct ExportRequest {

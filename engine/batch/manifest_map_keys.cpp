@@ -14,7 +14,8 @@ constexpr Choice<MapLayout> kLayouts[] = {
     {"angular", MapLayout::angular},
     {"mirror-ball", MapLayout::mirror_ball},
     {"octahedral", MapLayout::octahedral},
-    {"octahedral-equal-area", MapLayout::octahedral_equal_area}};
+    {"octahedral-equal-area", MapLayout::octahedral_equal_area},
+    {"cube-openexr", MapLayout::cube_openexr}};
 constexpr Choice<MapFileType> kFormats[] = {
     {"exr", MapFileType::exr}, {"hdr", MapFileType::hdr}, {"png", MapFileType::png}};
 constexpr Choice<CubeFaces> kFaces[] = {{"strip", CubeFaces::strip}, {"files", CubeFaces::files}};
@@ -109,6 +110,10 @@ std::optional<MapRequest> read_map(const ManifestReader& reader, const YAML::Nod
   request.layout = *layout;
   request.format = *format;
   read_size(reader, map, request);
+  if (request.layout == MapLayout::cube_openexr && request.format != MapFileType::exr) {
+    reader.error(map.format->value, "layout: cube-openexr is for format: exr only",
+                 "its faces are told by EXR's envmap attribute; take cube-vertical-strip");
+  }
   if (belongs(reader, map.samples, request.format == MapFileType::exr, "format: exr")) {
     request.samples =
         reader.choice<MapSamples>(*map.samples, kSampleChoices).value_or(MapSamples::half);

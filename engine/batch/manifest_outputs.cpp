@@ -199,8 +199,14 @@ Layout layout_of(const MapRequest& map) {
       return Layout::octahedral;
     case MapLayout::octahedral_equal_area:
       return Layout::octahedral_equal_area;
+    case MapLayout::cube_openexr:
+      return Layout::cube_openexr;
   }
   return Layout::equirect;
+}
+
+bool has_faces_of_frame(const MapRequest& map) {
+  return is_cube(layout_of(map)) && map.layout != MapLayout::cube_openexr;
 }
 
 std::vector<std::string> map_files(const Manifest& manifest, const PanoramaEntry& entry,

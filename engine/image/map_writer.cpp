@@ -25,6 +25,11 @@ Status check(const std::filesystem::path& path, const MapFile& file) {
                  fmt::format("{} stops are no exposure of a preview", file.preview_exposure),
                  path.string(), fmt::format("at most {} up or down", kMaxStops)};
   }
+  const bool is_exr = file.format == MapFormat::exr_half || file.format == MapFormat::exr_float;
+  if (file.environment != MapFile::Environment::none && !is_exr) {
+    return Error{ErrorCode::usage, "only OpenEXR has an envmap attribute", path.string(),
+                 "write the map as exr"};
+  }
   const auto in_name = [](char c) { return c > ' ' && c <= '~'; };
   const auto in_text = [](char c) { return c != '\n' && c != '\r' && c != '\0'; };
   for (const auto& [name, text] : file.attributes) {

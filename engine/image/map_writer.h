@@ -24,6 +24,11 @@ enum class MapFormat {
 };
 
 struct MapFile {
+  // What the file says of where its pixels look, that its readers go by.
+  enum class Environment {
+    none,
+    cube,  // EXR's envmap CUBE; no other format can say so
+  };
   MapFormat format = MapFormat::exr_half;
   int width = 0;  // 1 .. kMaxSide, and so is the height
   int height = 0;
@@ -31,13 +36,15 @@ struct MapFile {
   // Name and text, written into the file: string attributes (EXR), comment lines (hdr), text chunks
   // (png). Names have 1 to 79 of the characters ! to ~; texts are one line.
   std::vector<std::pair<std::string, std::string>> attributes;
+  Environment environment = Environment::none;
 };
 
 class MapWriter {
  public:
   virtual ~MapWriter() = default;  // leaves nothing behind unless commit() succeeded
 
-  // Errors: usage (a size or an attribute that no file can have), write_failed.
+  // Errors: usage (a size or an attribute that no file can have, an environment that the format
+  // cannot tell), write_failed.
   static Result<std::unique_ptr<MapWriter>> create(const std::filesystem::path& path,
                                                    const MapFile& file);
 

@@ -1,5 +1,6 @@
-// OpenEXR maps. Pixels are at their centres, so the envmap attribute (whose border pixels lie on
-// the poles) is not set. The library lives in a module that is loaded when the first map comes.
+// OpenEXR maps. The envmap attribute is set only where it is asked for: its border pixels lie on
+// the poles or on the edges of faces, those of other maps at their centres. The library lives in a
+// module that is loaded when the first map comes.
 #include <algorithm>
 #include <span>
 
@@ -45,7 +46,11 @@ class ExrMapWriter final : public MapWriter {
     }
     const exr::SampleKind kind =
         map.format == MapFormat::exr_half ? exr::kSampleHalf : exr::kSampleFloat;
-    const exr::MapHeader header{width_, height_, kind, attributes.data(), attributes.size()};
+    const exr::Environment environment = map.environment == MapFile::Environment::cube
+                                             ? exr::kEnvironmentCube
+                                             : exr::kEnvironmentNone;
+    const exr::MapHeader header{width_,      height_,           kind,
+                                environment, attributes.data(), attributes.size()};
     const exr::Output output{&bytes_, path_.c_str(), write_output};
     exr::Map* created = nullptr;
     exr::Message message{};

@@ -93,7 +93,9 @@ Status write_layout_map(const Coefficients& coefficients, Layout layout, int fac
   }
   const Basis<double> basis(coefficients.degree);
   std::vector<double> values(coefficient_count(coefficients.degree));
-  return write_map(path, file, [&](int row, const std::array<float*, kChannelCount>& planes) {
+  MapFile told = file;
+  if (layout == Layout::cube_openexr) told.environment = MapFile::Environment::cube;
+  return write_map(path, told, [&](int row, const std::array<float*, kChannelCount>& planes) {
     for (float* plane : planes) std::fill_n(plane, file.width, 0.0F);
     const int in_picture = first_row + row;
     const TexelSpan span = geometry->span_of({in_picture, 0, 0, 1, file.width});

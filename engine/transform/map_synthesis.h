@@ -48,8 +48,9 @@ Status write_equirect_map(const Coefficients& coefficients, const std::filesyste
 [[nodiscard]] Coefficients facing(const Coefficients& native, const Frame& frame);
 
 // Writes a map in any layout but equirect and commits it; texels that show nothing are black. Of
-// cube_faces, one face: that of number `face`, which does not matter elsewhere. Coefficients in the
-// native frame. Error: usage (a size that the layout does not have), write_failed.
+// cube_faces, one face: that of number `face`, which does not matter elsewhere. Of cube_openexr,
+// the file says so by its envmap attribute. Coefficients in the native frame. Errors: usage (a size
+// that the layout does not have; cube_openexr in another format), write_failed.
 Status write_layout_map(const Coefficients& coefficients, Layout layout, int face,
                         const std::filesystem::path& path, const MapFile& file);
 

@@ -39,9 +39,13 @@ const std::vector<SettingsChange>& projection_changes() {
       {"sun by top", [](EntrySettings& s) { s.projection.sun.top = 0.001; }},
       {"sun by level", [](EntrySettings& s) { s.projection.sun.above = 10.0; }},
       {"sun taken out",
-       [](EntrySettings& s) { s.projection.sun = {0.0, 11.0, SunSettings::Action::remove}; }},
+       [](EntrySettings& s) {
+         s.projection.sun = {0.0, 11.0, SunSettings::Action::remove};
+       }},
       {"sun replaced",
-       [](EntrySettings& s) { s.projection.sun = {0.0, 11.0, SunSettings::Action::replace}; }},
+       [](EntrySettings& s) {
+         s.projection.sun = {0.0, 11.0, SunSettings::Action::replace};
+       }},
       {"reference", [](EntrySettings& s) { s.projection.arithmetic = Arithmetic::reference; }},
   };
   return kChanges;
@@ -57,14 +61,32 @@ const std::vector<std::pair<const char*, std::function<void(LinearKeys&)>>>& lin
       {"white", [](LinearKeys& k) { k.white = glm::dvec3(1, 1, 2); }},
       {"white of ones", [](LinearKeys& k) { k.white = glm::dvec3(1, 1, 1); }},
       {"frame", [](LinearKeys& k) { k.frame = *parse_frame("+z,-x,+y"); }},
-      {"yaw", [](LinearKeys& k) { k.turn = PictureTurn{10.0, 0.0, 0.0}; }},
-      {"pitch", [](LinearKeys& k) { k.turn = PictureTurn{0.0, 10.0, 0.0}; }},
-      {"hann", [](LinearKeys& k) { k.window = {WindowFit::given, {WindowKind::hann, {}}}; }},
-      {"wider", [](LinearKeys& k) { k.window = {WindowFit::given, {WindowKind::hann, 9.0}}; }},
-      {"gauss", [](LinearKeys& k) { k.window = {WindowFit::given, {WindowKind::gauss, {}}}; }},
+      {"yaw",
+       [](LinearKeys& k) {
+         k.turn = PictureTurn{10.0, 0.0, 0.0};
+       }},
+      {"pitch",
+       [](LinearKeys& k) {
+         k.turn = PictureTurn{0.0, 10.0, 0.0};
+       }},
+      {"hann",
+       [](LinearKeys& k) {
+         k.window = {WindowFit::given, {WindowKind::hann, {}}};
+       }},
+      {"wider",
+       [](LinearKeys& k) {
+         k.window = {WindowFit::given, {WindowKind::hann, 9.0}};
+       }},
+      {"gauss",
+       [](LinearKeys& k) {
+         k.window = {WindowFit::given, {WindowKind::gauss, {}}};
+       }},
       {"without dominant", [](LinearKeys& k) { k.dominant = DominantPart::remove; }},
       {"dominant alone", [](LinearKeys& k) { k.dominant = DominantPart::only; }},
-      {"auto", [](LinearKeys& k) { k.window = {WindowFit::automatic, {}}; }},
+      {"auto",
+       [](LinearKeys& k) {
+         k.window = {WindowFit::automatic, {}};
+       }},
   };
   return kChanges;
 }
@@ -152,7 +174,8 @@ TEST(Fingerprint, ParametersReadBack) {
     EXPECT_EQ(read->projection.pixels.nonfinite, expected.projection.pixels.nonfinite);
     EXPECT_EQ(read->projection.pixels.negative, expected.projection.pixels.negative);
     EXPECT_EQ(read->projection.pixels.clamp, expected.projection.pixels.clamp) << text;
-    EXPECT_EQ(read->projection.pixels.clamp_percentile, expected.projection.pixels.clamp_percentile);
+    EXPECT_EQ(read->projection.pixels.clamp_percentile,
+              expected.projection.pixels.clamp_percentile);
     EXPECT_EQ(read->projection.sun, expected.projection.sun);
     EXPECT_EQ(read->projection.arithmetic, expected.projection.arithmetic);
   }
@@ -182,6 +205,7 @@ TEST(Fingerprint, OutputHashChangesWithAllThatMapsDependOn) {
   const std::vector<ManifestChange> changes = {
       {"kind", [](Manifest& m) { m.maps[0].kind = Quantity::radiance; }},
       {"layout", [](Manifest& m) { m.maps[0].layout = MapLayout::cube; }},
+      {"cube-openexr", [](Manifest& m) { m.maps[0].layout = MapLayout::cube_openexr; }},
       {"width", [](Manifest& m) { m.maps[0].width = 401; }},
       {"height", [](Manifest& m) { m.maps[0].height = 401; }},
       {"format", [](Manifest& m) { m.maps[0].format = MapFileType::hdr; }},

@@ -3,6 +3,7 @@
 
 #include "batch/library_folder.h"
 #include "batch/verify.h"
+#include "core/content_hash.h"
 #include "output/coefficient_table.h"
 #include "transform/projector.h"
 
@@ -79,15 +80,15 @@ TEST_F(LayoutTest, MapsOfEveryLayoutAreTheSameLight) {
   const std::string maps = [] {
     std::string text = "defaults: {frame: \"+z,+x,+y\"}\nmaps:\n";
     for (const LayoutName& known : kLayoutNames) {
-      const bool is_written =
-          known.layout != Layout::automatic && known.layout != Layout::equirect &&
-          known.layout != Layout::cube_faces && known.layout != Layout::cube_openexr;
+      const bool is_written = known.layout != Layout::automatic &&
+                              known.layout != Layout::equirect &&
+                              known.layout != Layout::cube_faces;
       if (!is_written) continue;
       text += "  - {kind: irradiance, size: 64, layout: " + std::string(known.name) + "}\n";
     }
     return text + "  - {kind: irradiance, layout: cube, size: 64, faces: files}\n";
   }();
-  EXPECT_EQ(run(library(maps)).summary.map_count, 8 + 6);
+  EXPECT_EQ(run(library(maps)).summary.map_count, 9 + 6);
   ProjectionTables tables;
   const auto read = [&](const std::string& name, Layout layout) {
     ProjectionSettings settings;
@@ -103,11 +104,39 @@ TEST_F(LayoutTest, MapsOfEveryLayoutAreTheSameLight) {
   };
   for (const Layout layout :
        {Layout::cube_vertical_cross, Layout::cube_horizontal_cross, Layout::cube_vertical_strip,
-        Layout::cube_horizontal_strip, Layout::angular, Layout::mirror_ball,
+        Layout::cube_horizontal_strip, Layout::cube_openexr, Layout::angular, Layout::mirror_ball,
         Layout::octahedral_equal_area}) {
     expect_same(read("a.irradiance." + std::string(name_of(layout)) + ".exr", layout), layout);
   }
   expect_same(read("a.irradiance.cube.px.exr", Layout::cube_faces), Layout::cube_faces);
+}
+
+// An envmap CUBE is read as one whatever is asked, and has OpenEXR's axes whatever the frame is:
+// with another frame it stands as it was.
+TEST_F(LayoutTest, AnOpenExrCubeTellsWhatItIs) {
+  write_panorama("lib/a.hdr", 1, 64, 32);
+  const std::string maps =
+      "maps: [{kind: irradiance, size: 33, type: float, layout: cube-openexr}]\n";
+  const std::filesystem::path file = folder_ / "out/maps/a.irradiance.cube-openexr.exr";
+  EXPECT_EQ(run(library("defaults: {frame: \"+x,+y,+z\"}\n" + maps)).summary.map_count, 1);
+  const auto before = hash_file(file);
+  ASSERT_TRUE(before);
+  ProjectionTables tables;
+  const auto asked = [&](Layout layout) {
+    ProjectionSettings settings;
+    settings.layout = layout;
+    const auto result = project_panorama(file, {}, settings, tables);
+    EXPECT_TRUE(result) << result.error().text();
+    return result ? result->radiance : Coefficients(2);
+  };
+  const Coefficients told = asked(Layout::cube_openexr);
+  EXPECT_EQ(asked(Layout::automatic), told);
+  EXPECT_EQ(asked(Layout::equirect), told);
+
+  EXPECT_EQ(run(library("defaults: {frame: \"+z,+x,+y\"}\n" + maps)).summary.map_count, 0);
+  const auto after = hash_file(file);
+  ASSERT_TRUE(after);
+  EXPECT_EQ(*after, *before);
 }
 
 }  // namespace

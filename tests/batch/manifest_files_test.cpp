@@ -162,6 +162,7 @@ maps:
   - {kind: radiance, layout: cube, size: [64, 32], suffix: a.b}
   - {kind: radiance, format: hdr, type: float, faces: files, exposure: 1}
   - {kind: radiance, size: [0, 1.5], suffix: x}
+  - {kind: radiance, layout: cube-openexr, format: hdr}
 )"),
             R"(m.yaml:5:5: error: two maps would be written to "maps/NAME.irradiance.exr"
       - {kind: irradiance, size: [64, 32]}
@@ -190,6 +191,9 @@ m.yaml:9:62: error: exposure is for format: png only
 m.yaml:10:29: error: an item of size must be a whole number from 1 to 16384, not "0"
       - {kind: radiance, size: [0, 1.5], suffix: x}
                                 ^
+m.yaml:11:52: error: layout: cube-openexr is for format: exr only
+      - {kind: radiance, layout: cube-openexr, format: hdr}
+                                                       ^ its faces are told by EXR's envmap attribute; take cube-vertical-strip
 )");
 }
 

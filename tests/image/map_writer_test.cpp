@@ -258,6 +258,9 @@ TEST_F(Maps, WhatNoFileCanHold) {
     EXPECT_EQ(code({format, 1, 1, 0.0, {{"", "no name"}}}), ErrorCode::usage);
     EXPECT_EQ(code({format, 1, 1, 0.0, {{"two words", ""}}}), ErrorCode::usage);
     EXPECT_EQ(code({format, 1, 1, 0.0, {{"name", "two\nlines"}}}), ErrorCode::usage);
+    if (format != MapFormat::exr_half) {
+      EXPECT_EQ(code({format, 1, 1, 0.0, {}, MapFile::Environment::cube}), ErrorCode::usage);
+    }
   }
   EXPECT_EQ(files_in_folder(), 0);
 }

@@ -10,6 +10,7 @@
 #include <ImfOutputFile.h>
 #include <ImfRgba.h>
 #include <ImfRgbaFile.h>
+#include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 #include <half.h>
 
@@ -234,6 +235,7 @@ class MapOf final : public Map {
       auto* samples = reinterpret_cast<char*>(row_.data() + c * width_);
       row.insert(kColours[c], Imf::Slice(type, samples, sizeof(Sample), 0));
     }
+    if (map.environment == kEnvironmentCube) Imf::addEnvmap(header, Imf::ENVMAP_CUBE);
     for (std::size_t a = 0; a < map.attribute_count; ++a) {
       header.insert(map.attributes[a].name, Imf::StringAttribute(map.attributes[a].text));
     }

@@ -11,7 +11,7 @@
 
 namespace shoal::exr {
 
-inline constexpr std::uint32_t kInterfaceVersion = 1;  // raised when anything below changes
+inline constexpr std::uint32_t kInterfaceVersion = 2;  // raised when anything below changes
 inline constexpr char kModuleFile[] = "shoal_exr.so";
 inline constexpr char kEntryPoint[] = "shoal_exr_module";
 
@@ -66,6 +66,9 @@ struct Plane {
 
 struct Picture;  // the module's own
 
+// What a map says of itself: nothing, or that it is an `envmap` CUBE.
+enum Environment : std::int32_t { kEnvironmentNone = 0, kEnvironmentCube = 1 };
+
 // A map to be written: ZIP, channels R, G, B.
 struct Attribute {
   const char* name;
@@ -75,6 +78,7 @@ struct MapHeader {
   std::int32_t width;
   std::int32_t height;
   SampleKind kind;  // half (beyond +-65504 becomes +-65504) or float (bit for bit)
+  Environment environment;
   const Attribute* attributes;
   std::size_t attribute_count;
 };
