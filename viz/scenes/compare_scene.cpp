@@ -138,33 +138,38 @@ std::string place_text(std::size_t texel, const Pixels& pixels) {
 }
 
 // What the colours stand for, and the figures. Where there is no room for all, the bar's name goes,
-// which is the picture's, and then the note below it.
+// which is the picture's.
 void add_key(const Pair& pair, const Difference& difference, const std::string& channel,
              Stage& stage, const Rectangle& card) {
   const double line = stage.line_height(TextSize::label);
   stage.add_panel(card);
   const Rectangle inner = inset(card, 0.018, 0.02);
-  const FigureRow rows[] = {
+  std::vector<FigureRow> rows = {
       {"RMS over the sphere", text_of(difference.rms)},
       {"of " + pair.left_noun + " RMS", percent_of(difference.relative_rms)},
       {"largest", text_of(difference.largest)},
-      {"there (square): theta, phi", place_text(difference.largest_texel, pair.left.light)},
   };
+  if (difference.largest > 0.0) {
+    rows.push_back(
+        {"there (square): theta, phi", place_text(difference.largest_texel, pair.left.light)});
+  }
   add_figures(stage, inner, rows);
   const double room = inner.height() - figures_height(stage, rows);
   const double name = 1.2 * stage.line_height(TextSize::small);
   const double bar = 1.9 * line;  // with its numbers
-  const bool has_note = room >= bar + line;
-  const bool has_name = room >= bar + line + name;
-  const double bottom = inner.bottom + (has_note ? 2.0 : 1.0) * line;
+  const bool has_name = room >= bar + name;
+  const double bottom = inner.bottom + line;
+  const double thick = std::clamp(room - 1.4 * line, 0.4 * line, 0.9 * line);
   add_colour_bar(
-      stage, {inner.left, bottom, inner.right, bottom + 0.9 * line},
+      stage, {inner.left, bottom, inner.right, bottom + thick},
       {-difference.scale, difference.scale, has_name ? "right minus left, " + channel : "",
        [](double fraction) { return diverging_colour(2.0 * fraction - 1.0); }});
-  if (!has_note) return;
-  stage.add_text(inner.left, inner.bottom - 0.1 * line,
-                 percent_of(kBeyondScale) + " of the texels lie beyond the ends",
-                 {.size = TextSize::small, .colour = theme::kDimText, .max_width = inner.width()});
+}
+
+// For the caption, as a clause of it.
+std::string beyond_the_ends(const Difference& difference) {
+  if (difference.beyond == 0.0) return "";
+  return "; " + percent_of(difference.beyond) + " of the texels lie beyond the colours' ends";
 }
 
 }  // namespace
@@ -178,7 +183,7 @@ Status show_compare_scene(const SceneInput& input, Stage& stage) {
   stage.set_title(title_of(current_panorama(input)), pair.subject);
   stage.set_caption("difference of " + channel + ": RMS " + text_of(difference.rms) + " (" +
                     percent_of(difference.relative_rms) + " of " + pair.left_noun + "), largest " +
-                    text_of(difference.largest) + "; one exposure, " +
+                    text_of(difference.largest) + beyond_the_ends(difference) + "; one exposure, " +
                     text_of(std::log2(pair.exposure)) + " stops" + pair.note);
   const double gap = 0.01;
   const double aspect = stage.aspect(stage.body());
@@ -191,8 +196,10 @@ Status show_compare_scene(const SceneInput& input, Stage& stage) {
   add_side(pair.right.title, tone_mapped_picture(pair.right.light, pair.exposure), stage, cell(1));
   const Rectangle below = add_side("right minus left, " + channel,
                                    difference_picture(difference, pair.left.light), stage, cell(2));
-  add_mark(stage, below, middle_of(difference.largest_texel, pair.left.light), 0.011,
-           theme::kBackground);
+  if (difference.largest > 0.0) {
+    add_mark(stage, below, middle_of(difference.largest_texel, pair.left.light), 0.011,
+             theme::kBackground);
+  }
   // A high window's cells are low, and a picture's height would not do for the figures.
   const Rectangle key = columns == 1 ? cell(3) : place_of_picture(stage, cell(3));
   add_key(pair, difference, channel, stage, key);

@@ -46,6 +46,9 @@ Difference difference_of(const Pixels& left, const Pixels& right, Channel channe
   const auto end_of_scale = magnitudes.begin() + static_cast<std::ptrdiff_t>(std::ceil(inside));
   std::ranges::nth_element(magnitudes, end_of_scale);
   if (*end_of_scale > 0.0) difference.scale = *end_of_scale;
+  const auto beyond = std::ranges::count_if(
+      magnitudes, [&](double magnitude) { return magnitude > difference.scale; });
+  difference.beyond = static_cast<double>(beyond) / static_cast<double>(magnitudes.size());
   return difference;
 }
 

@@ -15,8 +15,9 @@ struct Difference {
   double relative_rms = 0.0;   // of the left side's own RMS; 0 where that is 0
   double largest = 0.0;        // |value|
   std::size_t largest_texel = 0;
-  double scale = 1.0;  // |value| at which the colours end: all but kBeyondScale of the texels lie
-                       // inside, so that a sun does not take the colours from all the rest
+  double scale = 1.0;   // |value| at which the colours end: all but kBeyondScale of the texels lie
+                        // inside, so that a sun does not take the colours from all the rest
+  double beyond = 0.0;  // the part of the texels whose |value| is larger than that
 };
 
 inline constexpr double kBeyondScale = 0.005;

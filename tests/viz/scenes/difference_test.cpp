@@ -27,6 +27,7 @@ TEST(Difference, OfAPictureWithItselfIsNothing) {
   EXPECT_EQ(difference.relative_rms, 0.0);
   EXPECT_EQ(difference.largest, 0.0);
   EXPECT_EQ(difference.scale, 1.0);
+  EXPECT_EQ(difference.beyond, 0.0);
   EXPECT_EQ(difference.values, std::vector<double>(16 * 8, 0.0));
 }
 
@@ -53,6 +54,7 @@ TEST(Difference, OfASpotCountsWithItsSolidAngle) {
   EXPECT_EQ(difference.largest_texel, 3u * 40 + 7);
   EXPECT_EQ(difference.values[3 * 40 + 7], -5.0);
   EXPECT_EQ(difference.scale, 0.25);
+  EXPECT_EQ(difference.beyond, 1.0 / 800.0);  // the spot alone
 }
 
 TEST(Difference, IsThatOfTheChannel) {
