@@ -8,6 +8,13 @@
 #include "scenes/scene_parts.h"
 
 namespace shoal::viz {
+namespace {
+
+// Of the largest |f|; what coefficients of float precision leave of a constant is less.
+constexpr double kLeastSpread = 1e-6;
+
+}  // namespace
+
 Lobe make_lobe(const Panorama& panorama, const SceneSettings& settings, int rings) {
   const Coefficients coefficients = shown_coefficients(panorama, settings);
   const Mesh sphere = sphere_mesh(rings);
@@ -20,9 +27,11 @@ Lobe make_lobe(const Panorama& panorama, const SceneSettings& settings, int ring
   lobe.mean = channel_of(mean_of(coefficients), settings.channel);
   lobe.smallest = *smallest;
   lobe.largest = *largest;
-  lobe.largest_direction = sphere.positions[largest - values.begin()];
   const double farthest = std::max(std::abs(*smallest), std::abs(*largest));
   lobe.unit = farthest > 0.0 ? farthest : 1.0;
+  if (*largest - *smallest > kLeastSpread * farthest) {
+    lobe.largest_direction = sphere.positions[largest - values.begin()];
+  }
   lobe.mesh = lobe_mesh(sphere, values, 1.0 / lobe.unit);
   if (settings.colour == LobeColour::sign) {
     lobe.colours = sign_colours(lobe.mesh);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <optional>
 #include <vector>
 
 #include "scenes/mesh.h"
@@ -17,7 +18,7 @@ struct Lobe {
   double mean = 0.0;
   double largest = 0.0;  // of the mesh's vertices
   double smallest = 0.0;
-  glm::vec3 largest_direction{0.0f};
+  std::optional<glm::vec3> largest_direction;  // none where f is the same in all directions
 };
 
 // Of the settings' quantity, degree, channel, colour and frame. Precondition: rings >= 1.

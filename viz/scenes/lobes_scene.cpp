@@ -37,7 +37,8 @@ std::vector<FigureRow> figures_of(const SceneInput& input, const Lobe& lobe) {
       {"degree", std::to_string(lobe.degree)},
       {"mean", text_of(lobe.mean)},
       {"largest", text_of(lobe.largest)},
-      {"towards", direction_text(lobe.largest_direction)},
+      {"towards",
+       lobe.largest_direction ? direction_text(*lobe.largest_direction) : "all directions"},
       {"smallest", text_of(lobe.smallest)},
       {"scale", {}},
       {"radius", "|f(direction)|"},
@@ -65,11 +66,15 @@ void add_thumbnail(const SceneInput& input, const Lobe& lobe, Stage& stage, cons
       automatic_exposure(radiance_of(current_panorama(input)), input.settings.exposure_stops);
   stage.add_picture(place, tone_mapped_picture(pixels, exposure));
   const glm::dmat3 to_native = glm::transpose(native_to_frame(input.settings.frame));
-  add_mark(stage, place, place_of(to_native * glm::dvec3(lobe.largest_direction)), 0.016,
-           theme::kAccent);
+  const std::string what =
+      lobe.largest_direction ? "the panorama; square: largest f" : "the panorama";
+  const std::string brief = lobe.largest_direction ? "square: largest f" : what;
+  if (lobe.largest_direction) {
+    add_mark(stage, place, place_of(to_native * glm::dvec3(*lobe.largest_direction)), 0.016,
+             theme::kAccent);
+  }
   stage.add_text(place.left, place.top + 0.3 * line,
-                 wording(stage, TextSize::small, area.width(), "the panorama; square: largest f",
-                         "square: largest f"),
+                 wording(stage, TextSize::small, area.width(), what, brief),
                  {.size = TextSize::small, .colour = theme::kDimText, .max_width = area.width()});
 }
 

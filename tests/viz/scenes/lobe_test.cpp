@@ -40,12 +40,26 @@ TEST(Lobe, PointsInEveryFrameWhereTheLightIs) {
       settings.frame = alias.frame;
       const Lobe lobe = make_lobe(panorama, settings, 16);
       const glm::vec3 expected(direction_of(place.axis));
-      EXPECT_EQ(lobe.largest_direction, expected) << alias.name;
+      EXPECT_EQ(lobe.largest_direction, std::optional(expected)) << alias.name;
       const auto farthest = std::max_element(
           lobe.mesh.positions.begin(), lobe.mesh.positions.end(),
           [](const glm::vec3& a, const glm::vec3& b) { return glm::length(a) < glm::length(b); });
       EXPECT_NEAR(glm::distance(*farthest, expected), 0.0, 1e-6) << alias.name;
     }
+  }
+}
+
+// A constant is c sqrt(4 pi) Y_00: c wherever one looks, and no direction stands out. Black is one
+// of them.
+TEST(Lobe, OfAConstantPointsNowhere) {
+  for (const double constant : {0.0, 0.3}) {
+    Coefficients light = test::light_from({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0}, 3);
+    for (int c = 0; c < kChannelCount; ++c) {
+      light.channels[c][0] = constant * std::sqrt(4.0 * std::numbers::pi);
+    }
+    const Lobe lobe = make_lobe(test::panorama_of("light", light), {}, 16);
+    EXPECT_NEAR(lobe.largest, constant, 1e-15);
+    EXPECT_FALSE(lobe.largest_direction.has_value());
   }
 }
 
