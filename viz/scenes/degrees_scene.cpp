@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,7 +41,11 @@ std::vector<int> shown_degrees(int degree, int most) {
   return degrees;
 }
 
+constexpr int kDecades = 4;  // of energy: one scale for all panoramas, from all to 0.01 %
+
+// What is there at all is not told as nothing.
 std::string percent(double part) {
+  if (part > 0.0 && part < 0.995 * std::pow(10.0, -kDecades)) return "< 0.01 %";
   char text[16];
   std::snprintf(text, sizeof text, part >= 0.0995 || part == 0.0 ? "%.0f %%" : "%.2g %%",
                 100.0 * part);
@@ -115,38 +120,40 @@ void add_partial_sums(const SceneInput& input, const Coefficients& whole, Stage&
   }
 }
 
-// Bars of energy over a logarithmic axis of whole decades, down to a millionth of all.
-void add_energy_bars(const std::vector<double>& energies, Stage& stage, const Rectangle& area) {
-  double total = 0.0;
-  double least = 1.0;
-  for (const double energy : energies) total += energy;
-  if (total == 0.0) total = 1.0;
-  for (const double energy : energies) {
-    if (energy > 0.0) least = std::min(least, energy / total);
-  }
-  const double decades = std::clamp(std::ceil(-std::log10(least) + 0.1), 1.0, 6.0);
-  const auto height_of = [&](double part) {
-    if (part <= 0.0) return area.bottom;
-    return area.bottom + area.height() * std::max(0.0, 1.0 + std::log10(part) / decades);
-  };
+double height_on(const Rectangle& chart, double part) {
+  if (part <= 0.0) return chart.bottom;
+  return chart.bottom + chart.height() * std::max(0.0, 1.0 + std::log10(part) / kDecades);
+}
+
+// Every decade, or every other one where there is no room for all the words.
+void add_energy_axis(Stage& stage, const Rectangle& chart) {
   const double line = stage.line_height(TextSize::small);
-  for (int decade = 0; decade <= static_cast<int>(decades); ++decade) {
+  const int step = chart.height() / kDecades >= line ? 1 : 2;
+  for (int decade = 0; decade <= kDecades; decade += step) {
     const double part = std::pow(10.0, -decade);
-    const double y = height_of(part);
-    stage.add_box({area.left, y, area.right, y + 1.0 / stage.height()}, theme::kLine);
-    stage.add_text(area.left - 0.006, y - 0.35 * line, percent(part),
+    const double y = height_on(chart, part);
+    stage.add_box({chart.left, y, chart.right, y + 1.0 / stage.height()}, theme::kLine);
+    stage.add_text(chart.left - 0.006, y - 0.35 * line, percent(part),
                    {.size = TextSize::small, .colour = theme::kDimText, .align = TextAlign::right});
   }
+}
+
+// Bars of energy over a logarithmic axis.
+void add_energy_bars(const std::vector<double>& energies, Stage& stage, const Rectangle& area) {
+  const double total = std::accumulate(energies.begin(), energies.end(), 0.0);
+  const double line = stage.line_height(TextSize::small);
+  add_energy_axis(stage, area);
   const int count = static_cast<int>(energies.size());
   const int label_step = 1 + (count - 1) / 24;
   for (int l = 0; l < count; ++l) {
     const Rectangle cell = grid_cell(area, count, 1, l, 0);
     const double half = std::min(0.3 * cell.width(), 0.03);
-    const double top = height_of(energies[l] / total);
+    const double part = total > 0.0 ? energies[l] / total : 0.0;
+    const double top = height_on(area, part);
     stage.add_box({cell.center_x() - half, area.bottom, cell.center_x() + half, top}, theme::kBar);
-    const std::string text = percent(energies[l] / total);
+    const std::string text = percent(part);
     const double half_text = 0.55 * stage.text_width(text, TextSize::small);
-    if (2.0 * half_text <= cell.width()) {
+    if (total > 0.0 && 2.0 * half_text <= cell.width()) {
       stage.add_box({cell.center_x() - half_text, top + 0.1 * line, cell.center_x() + half_text,
                      top + 1.1 * line},
                     theme::kBackground);
@@ -179,12 +186,16 @@ Status show_degrees_scene(const SceneInput& input, Stage& stage) {
   const double split = body.bottom + 0.42 * body.height();
   add_partial_sums(input, whole, stage, {body.left, split, body.right, body.top});
   const Rectangle chart{body.left, body.bottom + 2.6 * line, body.right, split - 3.2 * line};
+  const std::vector<double> energies = energies_of(whole, settings.channel);
+  const bool is_black = std::ranges::all_of(energies, [](double energy) { return energy == 0.0; });
   const std::string heading =
-      "energy of each degree, logarithmic scale; the integral of f squared, as parts of all";
+      is_black ? "no energy at any degree"
+               : "energy of each degree, logarithmic scale; the integral of f squared, as parts of "
+                 "all";
   stage.add_text(body.left, chart.top + 1.3 * line,
                  stage.clauses_within(heading, TextSize::label, body.width()),
                  {.max_width = body.width()});
-  add_energy_bars(energies_of(whole, settings.channel), stage, chart);
+  add_energy_bars(energies, stage, chart);
   stage.add_text(chart.center_x(), body.bottom, "degree l",
                  {.colour = theme::kDimText, .align = TextAlign::center});
   return {};
