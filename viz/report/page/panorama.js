@@ -2,7 +2,8 @@
 
 const kMapHeight = 128;       // of synthesised pictures
 const kDecodedAtOnce = 8;
-const kEnergyDecades = 6;     // that the bars' logarithmic scale shows
+const kEnergyDecades = 4;     // that the bars' logarithmic scale shows: from all to 0.01 %
+const kWideBars = 10;         // as many bars have room for their numbers lying
 
 function byId(id) {
   return document.getElementById(id);
@@ -211,12 +212,12 @@ class PanoramaView {
     }));
   }
 
-  // Bars of the share of all energy, on a logarithmic scale.
+  // Bars of the share of all energy, each with its number, on a logarithmic scale.
   showEnergy() {
     const sums = energies(chosen('quantity') === 'radiance' ? this.native : this.irradiance);
     const total = sums.reduce((a, b) => a + b, 0);
     const everyLabel = Math.ceil(sums.length / 16);
-    byId('energy-unit').textContent = `of the ${chosen('quantity')}, as parts of all; the scale spans ${kEnergyDecades} decades`;
+    byId('energy-unit').textContent = `of the ${chosen('quantity')}, as parts of all; logarithmic, from ${percentText(10 ** -kEnergyDecades)}`;
     const bars = sums.map((sum, l) => {
       const share = total > 0 ? sum / total : 0;
       const height = share > 0 ? Math.max(0, 1 + Math.log10(share) / kEnergyDecades) : 0;
@@ -224,10 +225,12 @@ class PanoramaView {
       bar.title = `degree ${l}: ${(100 * share).toPrecision(3)} %`;
       const fill = bar.appendChild(element('i'));
       fill.style.height = `${100 * height}%`;
+      if (total > 0) fill.append(element('em', '', percentText(share)));
       const label = bar.appendChild(element('span'));
       label.append(element('b', '', l % everyLabel === 0 ? String(l) : ''));
       return bar;
     });
+    byId('energy').classList.toggle('dense', bars.length > kWideBars);
     byId('energy').replaceChildren(...bars);
     byId('energy').setAttribute('aria-label', 'Energy by degree: ' + bars.map(bar => bar.title).join(', '));
   }
