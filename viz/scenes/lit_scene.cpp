@@ -22,6 +22,7 @@ namespace {
 constexpr int kReferenceWidth = 128;  // texels of the hemisphere integral: 128 x 64
 constexpr double kAlbedo = 0.8;
 constexpr double kSceneRadius = 1.32;
+constexpr double kLeastScale = 0.01;  // of the mean: the integral over coarse texels is off by less
 
 using Light = std::vector<std::vector<glm::dvec3>>;  // irradiance a vertex of each mesh, RGB
 
@@ -155,9 +156,26 @@ void show_alone(const std::vector<Mesh>& meshes, const Comparison& lit, double e
               frame, stage, stage.body());
 }
 
+ColourBar difference_bar(const Comparison& lit, double scale) {
+  const bool has_mean = lit.mean > 0.0;
+  const double ends = has_mean ? 100.0 * scale / lit.mean : scale;
+  return {-ends, ends, has_mean ? "luminance, % of the mean" : "luminance",
+          [](double fraction) { return diverging_colour(2.0 * fraction - 1.0); }};
+}
+
+// For the caption. Nothing is a part of a mean of zero.
+std::string describe_error(const Comparison& lit) {
+  const auto told = [&](double error) {
+    return lit.mean > 0.0 ? percent_of(error / lit.mean) : text_of(error);
+  };
+  return "over all normals they are off by " + told(lit.rms) +
+         (lit.mean > 0.0 ? " of the mean (RMS)" : " (RMS)") + ", at most by " + told(lit.largest);
+}
+
 void show_beside_reference(const std::vector<Mesh>& meshes, const Comparison& lit, double exposure,
                            const Frame& frame, Stage& stage) {
-  const double scale = lit.largest > 0.0 ? lit.largest : 1.0;
+  const double end = std::max(lit.largest, kLeastScale * lit.mean);
+  const double scale = end > 0.0 ? end : 1.0;
   const auto error = [&lit, scale](std::size_t mesh, std::size_t i) {
     return diverging_colour((luminance(lit.form[mesh][i]) - luminance(lit.reference[mesh][i])) /
                             scale);
@@ -170,12 +188,10 @@ void show_beside_reference(const std::vector<Mesh>& meshes, const Comparison& li
                {"difference", lit.form_is + " minus reference", error}},
               meshes, frame, stage, views);
   const Rectangle last = part_of_row(views, stage.aspect(views), 3, 2);
-  const double ends = lit.mean > 0.0 ? 100.0 * scale / lit.mean : 1.0;
   add_colour_bar(
       stage,
       {last.left + 0.03, body.bottom + 1.5 * line, last.right - 0.03, body.bottom + 2.3 * line},
-      {-ends, ends, "luminance, % of the mean",
-       [](double fraction) { return diverging_colour(2.0 * fraction - 1.0); }});
+      difference_bar(lit, scale));
 }
 
 }  // namespace
@@ -199,11 +215,7 @@ Status show_lit_scene(const SceneInput& input, Stage& stage) {
   }
 
   stage.set_title(title_of(panorama), "white things in its light");
-  const double mean = lit.mean > 0.0 ? lit.mean : 1.0;
-  const std::string figures =
-      missing.empty() ? "over all normals they are off by " + percent_of(lit.rms / mean) +
-                            " of the mean (RMS), at most by " + percent_of(lit.largest / mean)
-                      : "no reference: " + missing;
+  const std::string figures = missing.empty() ? describe_error(lit) : "no reference: " + missing;
   const std::string lines[] = {
       figures + "; irradiance on albedo 0.8, without shadows",
       "one exposure, " + text_of(std::log2(exposure)) + " stops; " + describe(settings.frame)};
