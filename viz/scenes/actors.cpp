@@ -176,10 +176,9 @@ void add_label(Stage& stage, vtkRenderer& view, const glm::vec3& point, const st
 }
 
 glm::vec3 viewer_direction(const Frame& frame) {
-  // From behind (-centre), to the side on which a horizontal axis comes towards the viewer, above.
-  const glm::dvec3 back = -direction_of(frame.center);
   const glm::dvec3 side = direction_of({frame.right.axis, 1});
-  return glm::vec3(glm::normalize(back + 0.62 * side + 0.48 * direction_of(frame.up)));
+  return glm::vec3(
+      glm::normalize(direction_of(frame.center) + 0.55 * side + 0.42 * direction_of(frame.up)));
 }
 
 void aim_camera(vtkRenderer& view, const Frame& frame, double radius, const glm::vec3& target) {

@@ -9,7 +9,7 @@
 namespace shoal::viz {
 
 // The function, of native coefficients, on a ball that is drawn in `frame` and seen from far away,
-// from its lit_side: what add_ball shows. side x side pixels, around it `ground`.
+// from viewer_direction: what add_ball shows. side x side pixels, around it `ground`.
 // Precondition: side >= 4.
 [[nodiscard]] Picture ball_picture(const Coefficients& native, const Frame& frame, double exposure,
                                    int side, const glm::vec3& ground);

@@ -83,7 +83,7 @@ void add_words(const Panorama& panorama, const Coefficients& radiance, const Con
 void add_lobe(const SceneInput& input, const Panorama& panorama, SharedCamera& camera, Stage& stage,
               const Rectangle& place) {
   vtkRenderer& view = stage.add_view(place);
-  camera.look_at_lit_side(view, input.settings.frame, 1.0);
+  camera.look(view, input.settings.frame, 1.0);
   const Lobe lobe = make_lobe(panorama, input.settings, kLobeRings);
   add_small_axes(view, 1.0);
   add_mesh(view, lobe.mesh, lobe.colours, Shading::lit);

@@ -37,7 +37,7 @@ std::vector<Mesh> exhibits(const Frame& frame) {
                 {torus_mesh(), 0.62f, {0.66f, -0.35f, -0.72f}},
                 {bust_mesh(), 1.0f, {0.0f, 0.3f, 0.42f}}};
   const glm::vec3 up(native_to_frame(frame) * glm::dvec3(0.0, 0.0, 1.0));
-  const glm::vec3 right = glm::normalize(glm::cross(up, lit_side(frame)));
+  const glm::vec3 right = glm::normalize(glm::cross(up, viewer_direction(frame)));
   const glm::vec3 away = glm::cross(up, right);
   const auto turned = [&](const glm::vec3& p) { return p.x * right + p.y * away + p.z * up; };
   std::vector<Mesh> meshes;
@@ -111,7 +111,7 @@ using ColourOf = std::function<glm::vec3(std::size_t mesh, std::size_t vertex)>;
 void add_exhibits(const std::vector<Mesh>& meshes, const ColourOf& colour_of, const Frame& frame,
                   SharedCamera& camera, Stage& stage, const Rectangle& area) {
   vtkRenderer& view = stage.add_view(area);
-  camera.look_at_lit_side(view, frame, kSceneRadius);
+  camera.look(view, frame, kSceneRadius);
   for (std::size_t mesh = 0; mesh < meshes.size(); ++mesh) {
     std::vector<glm::vec3> colours;
     for (std::size_t i = 0; i < meshes[mesh].positions.size(); ++i) {

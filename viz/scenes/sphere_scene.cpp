@@ -133,7 +133,7 @@ void add_ball_view(const Ball& ball, const Look& look, SharedCamera& camera, Sta
   stage.add_picture(places.flat, picture);
   mark(look, stage, places.flat);
   vtkRenderer& view = stage.add_view(places.round);
-  camera.look_at_lit_side(view, look.frame, scene_radius(stage, places.round));
+  camera.look(view, look.frame, scene_radius(stage, places.round));
   add_ball(view, picture, look.frame);
   add_ball_axes(stage, view);
   if (look.dominant != glm::vec3(0.0f)) add_dominant_arrow(view, look.dominant);
@@ -142,7 +142,7 @@ void add_ball_view(const Ball& ball, const Look& look, SharedCamera& camera, Sta
 // For the caption.
 std::string place_of_arrow(const Look& look) {
   if (look.dominant == glm::vec3(0.0f)) return "; it has no such direction";
-  return glm::dot(look.dominant, lit_side(look.frame)) < -0.5f
+  return glm::dot(look.dominant, viewer_direction(look.frame)) < -0.5f
              ? "; as the balls are first seen, behind them"
              : "";
 }

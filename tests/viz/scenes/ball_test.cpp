@@ -74,7 +74,7 @@ TEST_F(Balls, ShowLightWhereTheFramesAxisLeavesThem) {
     int seen = 0;
     for (int index = 0; index < 6; ++index) {
       const glm::dvec3 axis = direction_of({index / 2, index % 2 == 0 ? 1 : -1});
-      if (glm::dot(axis, glm::dvec3(lit_side(frame))) < 0.3) continue;
+      if (glm::dot(axis, glm::dvec3(viewer_direction(frame))) < 0.3) continue;
       ++seen;
       const glm::dvec3 native = glm::transpose(native_to_frame(frame)) * axis;
       Pixels light = synthesise(test::light_from(native, glm::dvec3(1.0), 12), 256, 128);
@@ -82,7 +82,7 @@ TEST_F(Balls, ShowLightWhereTheFramesAxisLeavesThem) {
       Stage stage(*window_);
       vtkRenderer& view = stage.add_view({});
       add_ball(view, tone_mapped_picture(light, 0.7 / peak), frame);
-      SharedCamera().look_at_lit_side(view, frame, 1.1);
+      SharedCamera().look(view, frame, 1.1);
       const glm::dvec2 spot = bright_spot(take_picture(*window_));
       const double radius = kSide / (2.0 * 1.1 * 1.04);
       EXPECT_LT(glm::distance(spot, project(view, axis)), 0.05 * radius)
@@ -105,7 +105,7 @@ TEST_F(Balls, AreTheSameFlat) {
   for (const Frame& frame : frames()) {
     Stage stage(*window_);
     vtkRenderer& view = stage.add_view({});
-    SharedCamera().look_at_lit_side(view, frame, 1.0);
+    SharedCamera().look(view, frame, 1.0);
     add_ball(view, texture, frame);
     view.GetActiveCamera()->SetParallelProjection(true);
     // The flat ball has a margin of a pixel around it.
