@@ -90,11 +90,15 @@ Result<OutputRecord> output_record(const Manifest& manifest, const std::string& 
                       std::filesystem::file_size(path, ignored)};
 }
 
+// Whose axes name the faces of a cube: without a frame in the manifest those that cubes are read in,
+// since the native up, +z, is no cube's.
+Frame frame_of_faces(const Frame& frame) { return frame == Frame{} ? cube_frame() : frame; }
+
 // All maps and exports of one variant.
 Status write_variant(const Manifest& manifest, const PanoramaEntry& entry, const Variant& variant,
                      const Coefficients& radiance, const Projection& projection,
                      const std::atomic<bool>& stop, std::vector<OutputRecord>& records) {
-  const Frame frame = frame_of(*entry.settings, variant);
+  const Frame frame = frame_of_faces(frame_of(*entry.settings, variant));
   for (const MapRequest& map : manifest.maps) {
     if (stop) return Error{ErrorCode::interrupted, "interrupted", entry.file, ""};
     const std::vector<std::string> names = map_files(manifest, entry, variant, map);
