@@ -129,7 +129,7 @@ void add_lines(vtkRenderer& view, std::span<const glm::vec3> pairs, const glm::v
 }
 
 void add_arrow(vtkRenderer& view, const glm::vec3& from, const glm::vec3& to,
-               const glm::vec3& colour, double thickness) {
+               const glm::vec3& colour, double thickness, double opacity) {
   const double length = glm::length(to - from);
   if (length == 0.0) return;
   vtkNew<vtkArrowSource> source;
@@ -141,6 +141,8 @@ void add_arrow(vtkRenderer& view, const glm::vec3& from, const glm::vec3& to,
   source->Update();
   vtkActor& actor = add_actor(view, *source->GetOutput(), Shading::lit);
   actor.GetProperty()->SetColor(colour.r, colour.g, colour.b);
+  actor.GetProperty()->SetOpacity(opacity);
+  actor.GetProperty()->BackfaceCullingOn();  // or a transparent one shows its far side
   // The source points along x; turn x to the direction by half a turn around the line between.
   const glm::dvec3 along = glm::dvec3(to - from) / length;
   glm::dvec3 middle = along + glm::dvec3(1.0, 0.0, 0.0);

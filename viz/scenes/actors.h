@@ -38,9 +38,9 @@ void add_ball(vtkRenderer& view, const Picture& equirect, const Frame& frame,
 void add_lines(vtkRenderer& view, std::span<const glm::vec3> pairs, const glm::vec3& colour,
                double pixels = 1.0);
 
-// A lit arrow; `thickness` is its shaft's radius.
+// A lit arrow; `thickness` is its shaft's radius, `opacity` in (0, 1].
 void add_arrow(vtkRenderer& view, const glm::vec3& from, const glm::vec3& to,
-               const glm::vec3& colour, double thickness = 0.02);
+               const glm::vec3& colour, double thickness = 0.02, double opacity = 1.0);
 
 // Words that stand at a point and always face the viewer, in front of all else; their middle is at
 // the point. While the mesh stands before a part of them, as seen by the view's camera, they are

@@ -71,12 +71,14 @@ void add_ball_axes(Stage& stage, vtkRenderer& view) {
   }
 }
 
-// Towards the viewer it is a dot in a ring.
-void add_dominant_arrow(vtkRenderer& view, const glm::vec3& direction) {
+// Towards the viewer it is a dot in a ring. Behind the ball it is seen through it, as its ghost.
+void add_dominant_arrow(Stage& stage, vtkRenderer& view, const glm::vec3& direction) {
   constexpr int kPieces = 48;
   constexpr float kRise = 0.987f;  // of the ring's middle; its radius is an eighth of the ball's
   constexpr float kRadius = 0.16f;
+  constexpr double kGhost = 0.4;  // opacity
   add_arrow(view, direction, 1.32f * direction, theme::kAccent, 0.03);
+  add_arrow(stage.front_of(view), direction, 1.32f * direction, theme::kAccent, 0.03, kGhost);
   const glm::vec3 some =
       std::abs(direction.z) < 0.9f ? glm::vec3(0.0f, 0.0f, 1.0f) : glm::vec3(1.0f, 0.0f, 0.0f);
   const glm::vec3 across = glm::normalize(glm::cross(direction, some));
@@ -89,6 +91,7 @@ void add_dominant_arrow(vtkRenderer& view, const glm::vec3& direction) {
   std::vector<glm::vec3> ring;
   for (int i = 0; i < kPieces; ++i) ring.insert(ring.end(), {point(i), point(i + 1)});
   add_lines(view, ring, theme::kAccent, 2.0);
+  add_lines(stage.front_of(view), ring, theme::kAccent, 1.0);
 }
 
 // Of all that a view shows: the axes with their names, which take more of a small one.
@@ -136,14 +139,14 @@ void add_ball_view(const Ball& ball, const Look& look, SharedCamera& camera, Sta
   camera.look(view, look.frame, scene_radius(stage, places.round));
   add_ball(view, picture, look.frame);
   add_ball_axes(stage, view);
-  if (look.dominant != glm::vec3(0.0f)) add_dominant_arrow(view, look.dominant);
+  if (look.dominant != glm::vec3(0.0f)) add_dominant_arrow(stage, view, look.dominant);
 }
 
 // For the caption.
 std::string place_of_arrow(const Look& look) {
   if (look.dominant == glm::vec3(0.0f)) return "; it has no such direction";
   return glm::dot(look.dominant, viewer_direction(look.frame)) < -0.5f
-             ? "; as the balls are first seen, behind them"
+             ? "; as the balls are first seen, behind them, and seen through them"
              : "";
 }
 
