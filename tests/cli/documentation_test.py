@@ -15,7 +15,7 @@ README = (ROOT / "README.md").read_text()
 # What the README's list of features says of a key, where it uses other words than the key itself.
 FEATURES = {
     "layout": "every layout", "lights": "lights:", "sky": "sky:", "picture": "picture:",
-    "rotate": "rotate:", "views": "views:", "window": "window:", "sun": "sun:",
+    "rotate": "rotate:", "views": "views:", "mirror": "mirror:", "window": "window:", "sun": "sun:",
     "dominant": "dominant:", "clamp": "clamp:", "quality": "quality:", "exports": "exports:",
     "frame": "frame", "tables": "tables", "maps": "maps",
 }
