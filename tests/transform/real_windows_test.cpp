@@ -19,9 +19,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFolders[] = {"pmndrs_hdr",    "pmndrs_exr",
-                                    "blender_exr",   "polyhaven_hdr",
-                                    "polyhaven_exr", "openexr-images/MultiResolution"};
+constexpr const char* kFolders[] = {"pmndrs_hdr",
+                                    "pmndrs_exr",
+                                    "blender_exr",
+                                    "polyhaven_hdr",
+                                    "polyhaven_exr",
+                                    "rgbe_variants",
+                                    "openexr-images/MultiResolution"};
 // Not of the whole sphere in colour: a mirror ball's picture, and colours that name a file's
 // levels.
 constexpr const char* kNoPanoramas[] = {"WavyLinesSphere.exr", "ColorCodedLevels.exr"};

@@ -91,7 +91,7 @@ Light light_on(const std::vector<Mesh>& meshes, const Source& source) {
 // Pixels of another light would be no reference.
 std::string why_no_reference(const SceneInput& input, const Pixels& pixels) {
   if (!current_panorama(input).change.is_whole) {
-    return "its pixels are of another light, and nothing tells how this one was made of them";
+    return "its pixels are of another light: some was added or taken out";
   }
   return pixels.empty() ? input.pixels->why_empty(input.current) : "";
 }

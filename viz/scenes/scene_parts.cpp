@@ -14,7 +14,7 @@ std::string title_of(const Panorama& panorama) {
 }
 
 std::string describe_pixels(const Panorama& panorama) {
-  if (!panorama.change.is_whole) return "its pixels, but not all of its light";
+  if (!panorama.change.is_whole) return "its pixels; light was added or taken out";
   const bool painted = panorama.file.empty();
   const bool same = panorama.change == LightChange{};
   return (painted ? "painted anew" : "its pixels") +
