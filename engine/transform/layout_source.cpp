@@ -77,8 +77,7 @@ void doubt_by_aspect(LaidOutPicture& picture) {
   if (std::abs(info.width - 2 * info.height) * 100 <= info.width) return;
   picture.notes.push_back(
       fmt::format("its {} x {} pixels are not twice as wide as high, as an equirect panorama is; "
-                  "another layout "
-                  "must be named, or be found by layout auto",
+                  "another layout must be named, or be found by layout auto",
                   info.width, info.height));
 }
 

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "layout_list.h"
 #include "sphere/texel_geometry.h"
 #include "support/made_picture.h"
 #include "support/temporary_folder.h"
@@ -15,14 +16,10 @@
 namespace shoal {
 namespace {
 
+using test::kOneFile;
 using test::Picture;
 
 constexpr double kPi = std::numbers::pi;
-constexpr Layout kOneFile[] = {Layout::cube_vertical_cross,  Layout::cube_horizontal_cross,
-                               Layout::cube_vertical_strip,  Layout::cube_horizontal_strip,
-                               Layout::cube_openexr,         Layout::angular,
-                               Layout::mirror_ball,          Layout::octahedral,
-                               Layout::octahedral_equal_area};
 const std::atomic<bool> kGoOn{false};
 
 using Scene = std::function<double(const glm::dvec3&)>;

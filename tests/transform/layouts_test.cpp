@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "image/face_files.h"
+#include "layout_list.h"
 #include "sphere/basis.h"
 #include "sphere/texel_geometry.h"
 #include "support/every_target.h"
@@ -19,17 +20,13 @@
 namespace shoal {
 namespace {
 
+using test::kOneFile;
 using test::Picture;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
 constexpr double kPi = std::numbers::pi;
-constexpr Layout kOneFile[] = {Layout::cube_vertical_cross,  Layout::cube_horizontal_cross,
-                               Layout::cube_vertical_strip,  Layout::cube_horizontal_strip,
-                               Layout::cube_openexr,         Layout::angular,
-                               Layout::mirror_ball,          Layout::octahedral,
-                               Layout::octahedral_equal_area};
 constexpr std::string_view kFaceEnds[] = {"px", "nx", "py", "ny", "pz", "nz"};
 
 ProjectionSettings settings_of(Layout layout, int degree = 4,
