@@ -19,6 +19,7 @@
 #include <numbers>
 #include <vector>
 
+#include "library/viewpoint.h"
 #include "scenes/hidden_labels.h"
 #include "scenes/type.h"
 #include "scenes/vtk_data.h"
@@ -177,12 +178,6 @@ void add_label(Stage& stage, vtkRenderer& view, const glm::vec3& point, const st
   hide_behind(view, *actor, {point, {half_width, 0.35 * stage.text_pixels(size)}, hidden_by});
 }
 
-glm::vec3 viewer_direction(const Frame& frame) {
-  const glm::dvec3 side = direction_of({frame.right.axis, 1});
-  return glm::vec3(
-      glm::normalize(direction_of(frame.center) + 0.55 * side + 0.42 * direction_of(frame.up)));
-}
-
 void aim_camera(vtkRenderer& view, const Frame& frame, double radius, const glm::vec3& target) {
   constexpr double kMargin = 1.04;
   constexpr double kViewAngle = 24.0;  // degrees; a narrow one bends shapes little
@@ -192,7 +187,7 @@ void aim_camera(vtkRenderer& view, const Frame& frame, double radius, const glm:
   const double half_angle = 0.5 * kViewAngle * std::numbers::pi / 180.0;
   const double narrow = std::atan(std::tan(half_angle) * std::min(1.0, aspect));
   const double distance = kMargin * radius / std::sin(narrow);
-  const glm::vec3 eye = target + static_cast<float>(distance) * viewer_direction(frame);
+  const glm::vec3 eye = target + glm::vec3(distance * viewer_direction(frame));
   const glm::dvec3 up = direction_of(frame.up);
   vtkCamera& camera = *view.GetActiveCamera();
   camera.SetFocalPoint(target.x, target.y, target.z);

@@ -49,15 +49,9 @@ void add_label(Stage& stage, vtkRenderer& view, const glm::vec3& point, const st
                TextSize size, const glm::vec3& colour = theme::kText,
                const std::shared_ptr<const Mesh>& hidden_by = nullptr);
 
-// Looks at the target from viewer_direction, the frame's up being up, so that a ball of that radius
-// there fills the view but for a margin. All views that are aimed alike show the same scale where
-// their shapes agree.
+// Looks at the target from viewer_direction (library/viewpoint.h), the frame's up being up, so that
+// a ball of that radius there fills the view but for a margin. All views that are aimed alike show
+// the same scale where their shapes agree.
 void aim_camera(vtkRenderer& view, const Frame& frame, double radius, const glm::vec3& target = {});
-
-// From where all scenes are first seen, so that a direction lies at the same place in each: from
-// where the panorama's centre is, since what shines from there lights what one sees, and its lobe
-// comes towards the viewer; a little from above and from the side on which a horizontal axis comes
-// towards the viewer. Of unit length.
-[[nodiscard]] glm::vec3 viewer_direction(const Frame& frame);
 
 }  // namespace shoal::viz

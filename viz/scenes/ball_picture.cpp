@@ -6,6 +6,7 @@
 #include <glm/mat3x3.hpp>
 #include <vector>
 
+#include "library/viewpoint.h"
 #include "scenes/actors.h"
 #include "sphere/basis.h"
 
@@ -15,7 +16,7 @@ namespace {
 // Columns: the screen's right, its up, and towards the viewer, in native coordinates.
 glm::dmat3 screen_to_native(const Frame& frame) {
   const glm::dmat3 to_frame = native_to_frame(frame);
-  const glm::dvec3 towards(viewer_direction(frame));
+  const glm::dvec3 towards = viewer_direction(frame);
   const glm::dvec3 frame_up = to_frame * glm::dvec3(0.0, 0.0, 1.0);
   const glm::dvec3 right = glm::normalize(glm::cross(frame_up, towards));
   return glm::transpose(to_frame) * glm::dmat3(right, glm::cross(towards, right), towards);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "library/light.h"
+#include "library/viewpoint.h"
 #include "scenes/actors.h"
 #include "scenes/axes.h"
 #include "scenes/exhibits.h"
@@ -37,7 +38,7 @@ std::vector<Mesh> exhibits(const Frame& frame) {
                 {torus_mesh(), 0.62f, {0.66f, -0.35f, -0.72f}},
                 {bust_mesh(), 1.0f, {0.0f, 0.3f, 0.42f}}};
   const glm::vec3 up(native_to_frame(frame) * glm::dvec3(0.0, 0.0, 1.0));
-  const glm::vec3 right = glm::normalize(glm::cross(up, viewer_direction(frame)));
+  const glm::vec3 right = glm::normalize(glm::cross(up, glm::vec3(viewer_direction(frame))));
   const glm::vec3 away = glm::cross(up, right);
   const auto turned = [&](const glm::vec3& p) { return p.x * right + p.y * away + p.z * up; };
   std::vector<Mesh> meshes;

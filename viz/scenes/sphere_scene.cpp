@@ -9,6 +9,7 @@
 
 #include "library/changed_pixels.h"
 #include "library/light.h"
+#include "library/viewpoint.h"
 #include "scenes/actors.h"
 #include "scenes/axes.h"
 #include "scenes/equirect.h"
@@ -145,7 +146,7 @@ void add_ball_view(const Ball& ball, const Look& look, SharedCamera& camera, Sta
 // For the caption.
 std::string place_of_arrow(const Look& look) {
   if (look.dominant == glm::vec3(0.0f)) return "; it has no such direction";
-  return glm::dot(look.dominant, viewer_direction(look.frame)) < -0.5f
+  return glm::dot(look.dominant, glm::vec3(viewer_direction(look.frame))) < -0.5f
              ? "; as the balls are first seen, behind them, and seen through them"
              : "";
 }

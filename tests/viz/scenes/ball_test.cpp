@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "library/viewpoint.h"
 #include "scenes/actors.h"
 #include "scenes/ball_picture.h"
 #include "scenes/equirect.h"
@@ -74,7 +75,7 @@ TEST_F(Balls, ShowLightWhereTheFramesAxisLeavesThem) {
     int seen = 0;
     for (int index = 0; index < 6; ++index) {
       const glm::dvec3 axis = direction_of({index / 2, index % 2 == 0 ? 1 : -1});
-      if (glm::dot(axis, glm::dvec3(viewer_direction(frame))) < 0.3) continue;
+      if (glm::dot(axis, viewer_direction(frame)) < 0.3) continue;
       ++seen;
       const glm::dvec3 native = glm::transpose(native_to_frame(frame)) * axis;
       Pixels light = synthesise(test::light_from(native, glm::dvec3(1.0), 12), 256, 128);
