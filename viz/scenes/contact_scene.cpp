@@ -57,27 +57,38 @@ void add_thumbnail(const SceneInput& input, std::size_t index, const Coefficient
   add_note("no pixels: degree " + std::to_string(radiance.degree), "sum", stage, place);
 }
 
-// Name and figures; in one line where there is no room for two.
+std::string mean_text(const Coefficients& radiance) {
+  return text_of(channel_of(mean_of(radiance), Channel::luminance));
+}
+
+std::string directed_text(const Coefficients& radiance) {
+  const double dominance = std::min(1.0, dominance_of(radiance).value_or(0.0));
+  return text_of(std::round(100.0 * dominance)) + " %";
+}
+
+// Name and figures, of which there are as many as have room: the name goes before them.
 void add_words(const Panorama& panorama, const Coefficients& radiance, const ContactCard& card,
                Stage& stage) {
   const Rectangle& words = card.words;
   const double line = stage.line_height(TextSize::small);
-  const std::string mean = text_of(channel_of(mean_of(radiance), Channel::luminance));
-  TextStyle figures{.size = TextSize::small, .colour = theme::kDimText, .max_width = words.width()};
+  const auto fits = [&](const std::string& text) {
+    return stage.text_width(text, TextSize::small) <= words.width();
+  };
+  const std::string name = title_of(panorama);
+  const std::string mean = mean_text(radiance);
+  stage.add_text(words.left, words.top - 0.9 * line, name,
+                 {.size = TextSize::small, .max_width = words.width(), .cut = TextCut::middle});
+  TextStyle figures{.size = TextSize::small, .colour = theme::kDimText};
   if (card.lines == 1) {
-    const double used = stage.text_width(mean + "  ", TextSize::small);
-    stage.add_text(
-        words.left, words.top - 0.85 * line, title_of(panorama),
-        {.size = TextSize::small, .max_width = words.width() - used, .cut = TextCut::middle});
     figures.align = TextAlign::right;
-    stage.add_text(words.right, words.top - 0.85 * line, mean, figures);
+    if (fits(name + "  " + mean)) {
+      stage.add_text(words.right, words.top - 0.9 * line, mean, figures);
+    }
     return;
   }
-  stage.add_text(words.left, words.top - 0.9 * line, title_of(panorama),
-                 {.size = TextSize::small, .max_width = words.width(), .cut = TextCut::middle});
-  const double dominance = std::min(1.0, dominance_of(radiance).value_or(0.0));
-  const std::string directed = text_of(std::round(100.0 * dominance)) + " %";
-  stage.add_text(words.left, words.top - 1.9 * line, mean + kBetween + directed, figures);
+  const std::string both = mean + kBetween + directed_text(radiance);
+  if (!fits(mean)) return;
+  stage.add_text(words.left, words.top - 1.9 * line, fits(both) ? both : mean, figures);
 }
 
 void add_lobe(const SceneInput& input, const Panorama& panorama, SharedCamera& camera, Stage& stage,
@@ -171,14 +182,15 @@ Status show_contact_scene(const SceneInput& input, Stage& stage) {
   stage.set_title(input.library->title, subject_of(*input.library, settings));
   const bool some_changed = std::ranges::any_of(
       shown, [&](std::size_t i) { return !input.library->panoramas[i].change.is_whole; });
-  const std::string lines[] = {"each at its own exposure: pixels, irradiance on a white ball, " +
-                                   describe(settings.quantity) + " lobes at a scale of their own" +
-                                   (some_changed ? "; other light: pixels before lights were added "
-                                                   "or a part taken out"
-                                                 : ""),
-                               "mean luminance" + std::string(kBetween) +
-                                   "how far the light comes from one side; " +
-                                   describe(settings.frame)};
+  const bool is_dense = contact_cell_count(settings) > kCellsOfPage;
+  const std::string lines[] = {
+      "each at its own exposure: pixels, irradiance on a white ball, " +
+          describe(settings.quantity) + " lobes at a scale of their own" +
+          (some_changed ? "; other light: pixels before lights were added "
+                          "or a part taken out"
+                        : ""),
+      std::string(is_dense ? "where there is room: " : "") + "mean luminance" + kBetween +
+          "how far the light comes from one side; " + describe(settings.frame)};
   stage.set_caption(lines);
   add_cards(input, shown, stage);
   return {};

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -58,6 +59,15 @@ struct PartialSum {
   double largest;              // |value|; 1 where all are zero
 };
 
+// The value that is r = 1 where a lobe has a scale of its own: its largest one, unless it would
+// then hold more than this radius' ball, which beside a thin lobe of reach 1 looks as large.
+double own_unit(const Mesh& sphere, const PartialSum& sum) {
+  constexpr double kMostRadius = 0.6;
+  const double volume = signed_volume(lobe_mesh(sphere, sum.values, 1.0 / sum.largest));
+  const double radius = std::cbrt(0.75 * std::numbers::inv_pi * volume);
+  return sum.largest * std::max(1.0, radius / kMostRadius);
+}
+
 std::vector<PartialSum> partial_sums(const Mesh& sphere, const Coefficients& whole, Channel channel,
                                      int most) {
   std::vector<PartialSum> sums;
@@ -71,14 +81,15 @@ std::vector<PartialSum> partial_sums(const Mesh& sphere, const Coefficients& who
   return sums;
 }
 
-// A row of lobes under one camera; r = 1 is `unit`, or each one's own largest value.
+// A row of lobes under one camera; r = 1 is `unit`, or each one's own.
 void add_lobe_row(const std::vector<PartialSum>& sums, const Mesh& sphere, const Frame& frame,
                   std::optional<double> unit, Stage& stage, const Rectangle& area) {
   SharedCamera camera;
   for (std::size_t i = 0; i < sums.size(); ++i) {
     const auto count = static_cast<int>(sums.size());
     vtkRenderer& view = stage.add_view(grid_cell(area, count, 1, static_cast<int>(i), 0));
-    const Mesh lobe = lobe_mesh(sphere, sums[i].values, 1.0 / unit.value_or(sums[i].largest));
+    const Mesh lobe =
+        lobe_mesh(sphere, sums[i].values, 1.0 / (unit ? *unit : own_unit(sphere, sums[i])));
     add_small_axes(view, 1.0);
     add_mesh(view, lobe, sign_colours(lobe), Shading::lit);
     camera.look(view, frame, 1.08);

@@ -9,6 +9,41 @@ namespace {
 
 constexpr double kGapOverHeading = 0.5;  // of a column of figures, in its lines
 
+double place_on(const ColourBar& bar, const Rectangle& area, double value) {
+  return std::lerp(area.left, area.right, (value - bar.low) / (bar.high - bar.low));
+}
+
+// A tick's line, and its words below it.
+void add_tick(Stage& stage, const Rectangle& area, double x, const std::string& text,
+              TextAlign align) {
+  const double line = stage.line_height(TextSize::small);
+  const double half = 0.5 / stage.width();
+  stage.add_box({x - half, area.bottom - 0.2 * line, x + half, area.bottom}, theme::kDimText);
+  stage.add_text(x, area.bottom - 1.15 * line, text,
+                 {.size = TextSize::small, .colour = theme::kDimText, .align = align});
+}
+
+// Both ends, and the round numbers between whose words do not touch theirs.
+void add_ticks(Stage& stage, const Rectangle& area, const ColourBar& bar) {
+  const double em = stage.line_height(TextSize::small) * stage.height() / stage.width();
+  const auto width = [&](const std::string& text) {
+    return stage.text_width(text, TextSize::small);
+  };
+  const std::string low = text_of(bar.low);
+  const std::string high = text_of(bar.high);
+  add_tick(stage, area, area.left, low, TextAlign::left);
+  add_tick(stage, area, area.right, high, TextAlign::right);
+  const double end = std::max(width(low), width(high)) + em;
+  const int count = static_cast<int>(area.width() / (5.0 * em)) + 1;
+  for (const Tick& tick : ticks_between(bar.low, bar.high, std::clamp(count, 2, 7))) {
+    const double x = place_on(bar, area, tick.value);
+    // As wide as its negative, so that both are there or neither.
+    const double half = 0.5 * std::max(width(tick.text), width(text_of(-tick.value)));
+    if (x - half < area.left + end || x + half > area.right - end) continue;
+    add_tick(stage, area, x, tick.text, TextAlign::center);
+  }
+}
+
 double figure_line(const Stage& stage) { return 1.15 * stage.line_height(TextSize::label); }
 
 }  // namespace
@@ -26,17 +61,7 @@ void add_colour_bar(Stage& stage, const Rectangle& area, const ColourBar& bar) {
   const double line = stage.line_height(TextSize::small);
   stage.add_text(area.center_x(), area.top + 0.2 * line, bar.label,
                  {.size = TextSize::small, .align = TextAlign::center});
-  const int tick_count =
-      static_cast<int>(area.width() / (5.0 * line * stage.height() / stage.width())) + 1;
-  for (const Tick& tick : ticks_between(bar.low, bar.high, std::clamp(tick_count, 2, 7))) {
-    const double x =
-        std::lerp(area.left, area.right, (tick.value - bar.low) / (bar.high - bar.low));
-    const double half = 0.5 / stage.width();
-    stage.add_box({x - half, area.bottom - 0.2 * line, x + half, area.bottom}, theme::kDimText);
-    stage.add_text(
-        x, area.bottom - 1.15 * line, tick.text,
-        {.size = TextSize::small, .colour = theme::kDimText, .align = TextAlign::center});
-  }
+  add_ticks(stage, area, bar);
 }
 
 double add_legend(Stage& stage, double right, double y, std::span<const LegendEntry> entries) {

@@ -19,7 +19,8 @@ struct ColourBar {
   std::function<glm::vec3(double fraction)> colour_of{};  // 0 at low, 1 at high
 };
 
-// The bar fills the area; its label stands a line above it, its ticks a line below.
+// The bar fills the area; its label stands a line above it, its ticks, its ends among
+// them, a line below.
 void add_colour_bar(Stage& stage, const Rectangle& area, const ColourBar& bar);
 
 struct LegendEntry {

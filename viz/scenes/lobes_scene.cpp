@@ -42,7 +42,7 @@ std::vector<FigureRow> figures_of(const SceneInput& input, const Lobe& lobe) {
       {"smallest", text_of(lobe.smallest)},
       {"scale", {}},
       {"radius", "|f(direction)|"},
-      {"grid sphere", "|f| = " + text_of(lobe.unit)},
+      {"unit sphere", "|f| = " + text_of(lobe.unit)},
   };
   return rows;
 }
@@ -109,7 +109,7 @@ Status show_lobes_scene(const SceneInput& input, Stage& stage) {
   add_scale_sphere(view, settings.frame);
   add_axes(stage, view, 1.15, TextSize::label, std::make_shared<const Mesh>(lobe.mesh));
   add_mesh(view, lobe.mesh, lobe.colours, Shading::lit);
-  aim_camera(view, settings.frame, 1.21);
+  aim_camera(view, settings.frame, 1.26);
 
   const double below = add_figures(stage, side, figures_of(input, lobe));
   const double legend = below - 1.725 * stage.line_height(TextSize::label);
