@@ -34,7 +34,7 @@ std::string in_case(std::string_view word, WordCase letters) {
   return text;
 }
 
-// The word at the end of a file's stem, and what stands before it.
+// The word at the end of a file's stem, also of one such as SkyPosx, and what stands before it.
 struct StemParts {
   std::string before;
   std::string word;
@@ -42,7 +42,12 @@ struct StemParts {
 
 StemParts split_stem(const std::string& stem) {
   std::size_t begin = stem.size();
-  while (begin > 0 && is_letter(stem[begin - 1])) --begin;
+  while (begin > 0 && is_letter(stem[begin - 1])) {
+    const bool begins_behind_small =
+        begin < stem.size() && is_capital(stem[begin]) && !is_capital(stem[begin - 1]);
+    if (begins_behind_small) break;
+    --begin;
+  }
   return {stem.substr(0, begin), stem.substr(begin)};
 }
 

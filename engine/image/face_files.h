@@ -21,8 +21,8 @@ using FacePaths = std::array<std::filesystem::path, kFaceCount>;
 // one of
 //   px nx py ny pz nz          posx negx posy negy posz negz
 //   right left up down front back      right left top bottom front back
-// in small letters, in capitals, or with a capital first; alone or behind a character that is no
-// letter. Where two rows fit, that whose files exist. Nothing where the name ends otherwise.
+// in small letters, in capitals, or with a capital first; alone, behind a character that is no
+// letter, or with a capital behind a small letter (SkyPosx). Where two rows fit, that whose files exist. Nothing where the name ends otherwise.
 [[nodiscard]] std::optional<FacePaths> face_paths(const std::filesystem::path& path);
 
 // The same where all of the files exist.

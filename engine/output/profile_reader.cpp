@@ -240,6 +240,10 @@ Status ProfileReader::read_order() {
       return yaml_.fault(node, "order lists coefficients as they are",
                          "order: [sh0, sh3, sh1]; combinations go under packing");
     }
+    if (std::ranges::find(profile_.order, number[0].coefficient) != profile_.order.end()) {
+      return yaml_.fault(node, fmt::format("{} stands in the order already", text),
+                         "order: [sh0, sh3, sh1]; each coefficient once");
+    }
     profile_.order.push_back(number[0].coefficient);
   }
   return {};

@@ -30,11 +30,14 @@ TEST(FaceFiles, AreToldByTheNameOfAnyOfThem) {
   EXPECT_THAT(names_of("map.cube.Top.exr"),
               ElementsAre("map.cube.Right.exr", "map.cube.Left.exr", "map.cube.Top.exr",
                           "map.cube.Bottom.exr", "map.cube.Front.exr", "map.cube.Back.exr"));
+  EXPECT_THAT(names_of("CubeNegz.hdr"),
+              ElementsAre("CubePosx.hdr", "CubeNegx.hdr", "CubePosy.hdr", "CubeNegy.hdr",
+                          "CubePosz.hdr", "CubeNegz.hdr"));
 }
 
 TEST(FaceFiles, NeedAWordOfTheirOwn) {
-  for (const char* name :
-       {"sky.hdr", "expx.hdr", "px_sky.hdr", "px1.hdr", "setup.hdr", ".hdr", "sky_pX.hdr"}) {
+  for (const char* name : {"sky.hdr", "expx.hdr", "px_sky.hdr", "px1.hdr", "setup.hdr", ".hdr",
+                           "sky_pX.hdr", "SKYPosx.hdr"}) {
     EXPECT_EQ(face_paths(name), std::nullopt) << name;
   }
 }

@@ -190,6 +190,9 @@ TEST(ProfileFaults, AreToldWithTheirPlace) {
   EXPECT_EQ(fault(profile_text("order: [sh0, 2*sh1]\n")),
             "folder/mine.yaml:9:14: order lists coefficients as they are (order: [sh0, sh3, sh1]; "
             "combinations go under packing)");
+  EXPECT_EQ(fault(profile_text("order: [sh0, sh1, sh0]\n")),
+            "folder/mine.yaml:9:19: sh0 stands in the order already (order: [sh0, sh3, sh1]; each "
+            "coefficient once)");
   EXPECT_EQ(
       fault(profile_text("", "a\n  bc {{pnorama}}")),
       "folder/mine.yaml:11:6: nothing is called \"pnorama\" here (did you mean {{panorama}}?)");
