@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 
+#include "library/viewpoint.h"
 #include "report/picture.h"
 #include "report/script_text.h"
 #include "sphere/irradiance.h"
@@ -37,12 +38,13 @@ std::string strings(const std::vector<std::string>& texts) {
   return out + ']';
 }
 
-// Where the picture's centre, right and upper edge lie in the frame.
+// Where the picture's centre, right and upper edge lie in the frame, and from where one first
+// looks.
 std::string frame_data(const Frame& frame) {
-  return fmt::format(R"({{"text":{},"center":{},"right":{},"up":{},"mirrors":{}}})",
+  return fmt::format(R"({{"text":{},"center":{},"right":{},"up":{},"viewer":{}}})",
                      script_quoted(text_of(frame)), vector_text(direction_of(frame.center)),
                      vector_text(direction_of(frame.right)), vector_text(direction_of(frame.up)),
-                     mirrors(frame));
+                     vector_text(viewer_direction(frame)));
 }
 
 // The names are those of the table of quality.

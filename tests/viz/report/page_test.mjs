@@ -188,6 +188,21 @@ await run({
     assert.equal(await page.evaluate('report.current'), 20);
   },
 
+  // viz/library/viewpoint.h: of the frame +z,+x,+y it is (1, 0.5, 1) / 1.5. The data has six digits.
+  async 'the lobe is first seen from where scenes see it'() {
+    await openFirst('sky_0020');
+    const eye = () => page.evaluate('report.view.lobe.axes()[2]');
+    const expectFirst = async () => (await eye()).forEach((value, i) => assert.ok(Math.abs(value - [2, 1, 2][i] / 3) < 1e-5));
+    await expectFirst();
+    const first = await eye();
+    await page.drag('#lobe', 30, 0);
+    const [right, up] = await page.evaluate(`report.view.lobe.axes().slice(0, 2).map(axis => dot(axis, ${JSON.stringify(first)}))`);
+    assert.ok(right > 0.1 && Math.abs(up) < right, 'what was in front goes with the mouse');
+    await page.evaluate(`document.getElementById('lobe').focus()`);
+    await page.press('Home');
+    await expectFirst();
+  },
+
   async 'quantity, colour, channel and degree change the lobe'() {
     await openFirst('sky_0020');
     const seen = [await page.picture('#lobe')];

@@ -49,7 +49,6 @@ const kLineFragmentShader = `
 
 const kAxisLength = 1.2;
 const kMargin = 1.34;  // what half the stage's shorter side shows
-const kStartTurn = {yaw: 0.65, pitch: 0.38};
 
 function cross(a, b) {
   return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
@@ -153,7 +152,8 @@ function stageLines() {
 
 class LobeView {
   // The frame's x, y and z are drawn right-handed, whatever hand the frame's tool has: what points
-  // along the drawn and labelled +x is the light from the tool's +x. `frame` says which axis is up.
+  // along the drawn and labelled +x is the light from the tool's +x. The frame says which axis is up,
+  // and from where the shape is first seen.
   constructor(canvas, labels, frame) {
     this.canvas = canvas;
     this.frame = frame;
@@ -165,7 +165,7 @@ class LobeView {
       direction[axis] = sign;
       return {label, direction};
     }));
-    this.turn = {...kStartTurn};
+    this.turn = this.startTurn();
     const options = {antialias: true, alpha: true};
     this.gl = canvas.getContext('webgl2', options) || canvas.getContext('webgl', options);
     if (this.gl) {
@@ -227,13 +227,17 @@ class LobeView {
     ];
   }
 
+  // The turn that sees the shape from the frame's viewer.
+  startTurn() {
+    const {center, up, viewer} = this.frame;
+    return {yaw: Math.atan2(dot(viewer, cross(up, center)), dot(viewer, center)), pitch: Math.asin(dot(viewer, up))};
+  }
+
   // Rows: the stage's right, up, and towards the eye.
   axes() {
     const {center, up} = this.frame;
-    const back = center.map(x => -x);
-    const side = cross(up, back);
     const {yaw, pitch} = this.turn;
-    const level = weighted(back, Math.cos(yaw), side, Math.sin(yaw));
+    const level = weighted(center, Math.cos(yaw), cross(up, center), Math.sin(yaw));
     const right = cross(up, level);
     const eye = weighted(level, Math.cos(pitch), up, Math.sin(pitch));
     return [right, cross(eye, right), eye];
@@ -332,7 +336,7 @@ class LobeView {
     const turns = {ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, step], ArrowDown: [0, -step]};
     canvas.addEventListener('keydown', event => {
       if (event.key === 'Home') {
-        this.turn = {...kStartTurn};
+        this.turn = this.startTurn();
         this.draw();
       } else if (turns[event.key]) {
         this.turnBy(...turns[event.key]);
