@@ -35,7 +35,6 @@ int report(const ReportCommand& command) {
   }
   const auto library = load_selected(command.library);
   if (!library) return report_error(library.error());
-  if (command.frame.empty()) settings.frame = frame_of(*library);
   PixelCache pixels(*library);
   Progress progress("reporting");
   const Status written =
@@ -55,7 +54,7 @@ void add_report_command(CLI::App& app, Action& action) {
   add_library_options(*command, options->library, Sources::needed);
   command->add_option("--frame", options->frame,
                       "Frame of coefficients and axes: a name, or where the panorama's centre, "
-                      "right and up point; that of the library's tables by default");
+                      "right and up point; each panorama's in the library's tables by default");
   command->add_option("-o,--output", options->folder,
                       "Folder of the page; OUT/report by default where OUT is a folder");
   command->callback([&action, options] { action = [options] { return report(*options); }; });

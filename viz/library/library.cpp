@@ -142,6 +142,16 @@ Result<Library> load_library(const std::vector<fs::path>& sources, const LoadSet
   return library;
 }
 
+Coefficients coefficients_in(const Panorama& panorama, Quantity quantity, const Frame& frame) {
+  if (panorama.frame == frame) {
+    const auto told = panorama.told.find(quantity);
+    if (told != panorama.told.end()) return told->second;
+    const auto radiance = panorama.told.find(Quantity::radiance);
+    if (radiance != panorama.told.end()) return apply_quantity(radiance->second, quantity);
+  }
+  return apply_quantity(to_frame(radiance_of(panorama), frame), quantity);
+}
+
 std::string full_name(const Panorama& panorama) {
   return panorama.variant.empty() ? panorama.name : panorama.name + "." + panorama.variant;
 }

@@ -4,9 +4,11 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/result.h"
@@ -60,6 +62,8 @@ struct Panorama {
   LightChange change;  // what a variant, or the entry's exposure, rotation and so on, makes of the
                        // pixels' light
   Frame frame;         // that a table told the coefficients in
+  std::map<Quantity, Coefficients>
+      told;  // all that the table holds, as it stands there: in `frame`
   std::vector<std::string> tags;
   std::vector<std::string> warnings;
 };
@@ -91,6 +95,14 @@ struct LoadSettings {
 // The radiance behind a panorama's coefficients. What the clamped cosine took away, odd degrees
 // above 1, stays away.
 [[nodiscard]] Coefficients radiance_of(const Panorama& panorama);
+
+// Of a quantity in a frame: the table's own numbers, to the last bit, where it tells them in this
+// frame, or the radiance that they are made of.
+[[nodiscard]] Coefficients coefficients_in(const Panorama& panorama, Quantity quantity,
+                                           const Frame& frame);
+
+// What tables of `shoal run` call the variant that has no name here.
+inline constexpr std::string_view kPlainVariant = "plain";
 
 // "NAME" or "NAME.VARIANT".
 [[nodiscard]] std::string full_name(const Panorama& panorama);

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
-#include <glm/matrix.hpp>
+#include <glm/mat3x3.hpp>
 #include <map>
 #include <memory>
 #include <sstream>
@@ -18,7 +18,6 @@
 
 #include "library/painted_pixels.h"
 #include "library/table_library.h"
-#include "sphere/rotation.h"
 
 namespace shoal::viz {
 namespace {
@@ -271,7 +270,7 @@ Result<FactsByName> facts_in(const std::filesystem::path& store, sqlite3* databa
   return facts;
 }
 
-// The run's table in the native frame. JSON tells its frames itself; of CSV the store does.
+// The run's table. JSON tells its frames itself; of CSV the store does.
 Result<std::vector<CoefficientRecord>> table_beside(const std::filesystem::path& store,
                                                     const FactsByName& facts) {
   std::error_code code;
@@ -282,10 +281,7 @@ Result<std::vector<CoefficientRecord>> table_beside(const std::filesystem::path&
   SHOAL_ASSIGN_OR_RETURN(records, read_table(csv));
   for (CoefficientRecord& record : records) {
     const auto fact = facts.find({record.panorama, record.variant});
-    if (fact == facts.end()) continue;
-    const glm::dmat3 to_native = glm::transpose(native_to_frame(fact->second.frame));
-    record.coefficients = rotate(record.coefficients, to_native);
-    record.frame = fact->second.frame;
+    if (fact != facts.end()) record.frame = fact->second.frame;
   }
   return records;
 }
@@ -334,11 +330,14 @@ void add_variants(std::vector<Panorama> table, const FactsByName& facts, Library
     const auto found = stored.find(table[i].name);
     if (found == stored.end()) continue;
     std::size_t& position = positions[found->second];
+    const bool is_first = position == kNowhere;
     position = std::min(position, i);
     Panorama& own = library.panoramas[found->second];
+    if (is_first) own.frame = table[i].frame;  // also where the table has its variants alone
     if (table[i].variant.empty()) {
       take_change(facts, own);
       own.frame = table[i].frame;
+      own.told = table[i].told;
       if (tells_other_light(table[i], own)) plain.emplace_back(i, found->second);
       continue;
     }
@@ -346,6 +345,7 @@ void add_variants(std::vector<Panorama> table, const FactsByName& facts, Library
     variant.variant = table[i].variant;
     take_change(facts, variant);
     variant.frame = table[i].frame;
+    variant.told = table[i].told;
     take_light(table[i], variant);
     library.panoramas.push_back(std::move(variant));
     positions.push_back(i);

@@ -67,9 +67,6 @@ Result<CoefficientRecord> record_of(const Json::Value& value) {
   SHOAL_ASSIGN_OR_RETURN(coefficients, coefficients_of(value));
   record.quantity = quantity;
   record.frame = frame;
-  if (frame != Frame{}) {
-    coefficients = rotate(coefficients, glm::transpose(native_to_frame(frame)));
-  }
   record.coefficients = std::move(coefficients);
   return record;
 }
@@ -111,6 +108,12 @@ Result<std::vector<CoefficientRecord>> read_json_table(const std::filesystem::pa
   }
 }
 
+// Only the native frame leaves the bits as they are.
+Coefficients in_native_frame(const CoefficientRecord& record) {
+  if (record.frame == Frame{}) return record.coefficients;
+  return rotate(record.coefficients, glm::transpose(native_to_frame(record.frame)));
+}
+
 // Radiance says most, and irradiance and irradiance over pi the same.
 bool says_more(Quantity quantity, Quantity than) { return quantity < than; }
 
@@ -143,8 +146,9 @@ std::vector<Panorama> panoramas_of(std::vector<CoefficientRecord> records) {
     Panorama& panorama = panoramas[place->second];
     if (is_new || says_more(record.quantity, panorama.quantity)) {
       panorama.quantity = record.quantity;
-      panorama.coefficients = std::move(record.coefficients);
+      panorama.coefficients = in_native_frame(record);
     }
+    panorama.told[record.quantity] = std::move(record.coefficients);
   }
   return panoramas;
 }

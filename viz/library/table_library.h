@@ -10,10 +10,7 @@
 
 namespace shoal::viz {
 
-// What `shoal run` calls the one variant of a manifest that names none.
-inline constexpr std::string_view kPlainVariant = "plain";
-
-// All records of a CSV or JSON table, in the native frame: CSV does not tell a frame, and what it
+// All records of a CSV or JSON table, as they stand there. CSV does not tell a frame, and what it
 // holds is taken for native. Errors: not_found, unreadable, malformed, unsupported (npy).
 [[nodiscard]] Result<std::vector<CoefficientRecord>> read_table(const std::filesystem::path& path);
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -20,6 +21,9 @@ constexpr std::array<double, 9> kPolynomialFactors = {
     0.28209479177387814, 0.48860251190291992, 0.48860251190291992,
     0.48860251190291992, 1.0925484305920792,  1.0925484305920792,
     0.31539156525252005, 1.0925484305920792,  0.54627421529603959};
+
+constexpr std::array kQuantities = {Quantity::radiance, Quantity::irradiance,
+                                    Quantity::irradiance_over_pi};
 
 std::string vector_text(const glm::dvec3& v) {
   return short_numbers(std::array<double, 3>{v.x, v.y, v.z});
@@ -77,16 +81,17 @@ std::string pixels_data(const PixelFigures& pixels) {
       short_numbers(pixels.minimum), short_numbers(pixels.maximum), short_numbers(pixels.mean));
 }
 
-std::string entry_data(const IndexEntry& entry, const Frame& frame) {
+// `frame` is the place of the entry's among the frames.
+std::string entry_data(const IndexEntry& entry, std::size_t frame) {
   const Panorama& panorama = *entry.panorama;
   return fmt::format(
-      R"({{"name":{},"variant":{},"file":{},"quantity":{},"degree":{},"changed":{},"tags":{},)"
+      R"({{"name":{},"variant":{},"file":{},"quantity":{},"degree":{},"frame":{},"changed":{},"tags":{},)"
       R"("warnings":{},"thumbnail":{},"ball":{},"exposure":{},"figures":{},"pixels":{}}})",
       script_quoted(entry.name), script_quoted(panorama.variant),
       script_quoted(panorama.file.filename().string()), script_quoted(name_of(panorama.quantity)),
-      panorama.coefficients.degree, !panorama.change.is_whole, strings(panorama.tags),
+      panorama.coefficients.degree, frame, !panorama.change.is_whole, strings(panorama.tags),
       strings(entry.warnings), script_quoted(entry.thumbnail), entry.ball,
-      short_number(entry.exposure), figures_data(entry.figures, frame),
+      short_number(entry.exposure), figures_data(entry.figures, entry.frame),
       panorama.pixels ? pixels_data(*panorama.pixels) : "null");
 }
 
@@ -117,14 +122,22 @@ std::string irradiance_ball(const Coefficients& radiance) {
 }
 
 std::string index_data(const Library& library, const std::vector<IndexEntry>& entries,
-                       const std::vector<FailedPanorama>& failed, const Frame& frame,
-                       const std::string& inlined) {
-  std::string out = fmt::format("{{\"title\":{},\"frame\":{},\n\"panoramas\":[",
-                                script_quoted(library.title), frame_data(frame));
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    out += i == 0 ? "\n" : ",\n";
-    out += entry_data(entries[i], frame);
+                       const std::vector<FailedPanorama>& failed, const std::string& inlined) {
+  std::vector<Frame> frames;
+  std::string frame_list;
+  std::string entry_list;
+  for (const IndexEntry& entry : entries) {
+    const auto place =
+        static_cast<std::size_t>(std::ranges::find(frames, entry.frame) - frames.begin());
+    if (place == frames.size()) {
+      frame_list += (frames.empty() ? "" : ",") + frame_data(entry.frame);
+      frames.push_back(entry.frame);
+    }
+    entry_list += (entry_list.empty() ? "\n" : ",\n") + entry_data(entry, place);
   }
+  std::string out = fmt::format("{{\"title\":{},\"plain\":{},\"frames\":[{}],\n\"panoramas\":[{}",
+                                script_quoted(library.title), script_quoted(kPlainVariant),
+                                frame_list, entry_list);
   out += "],\n\"failed\":[";
   for (std::size_t i = 0; i < failed.size(); ++i) {
     out += fmt::format("{}\n{{\"name\":{},\"error\":{}}}", i == 0 ? "" : ",",
@@ -133,16 +146,18 @@ std::string index_data(const Library& library, const std::vector<IndexEntry>& en
   return out + "],\n\"inline\":" + (inlined.empty() ? "null" : inlined) + "}\n";
 }
 
-std::string panorama_data(const Coefficients& radiance, const Frame& frame, const Pixels& pixels,
+std::string panorama_data(const Panorama& panorama, const Frame& frame, const Pixels& pixels,
                           const std::string& note) {
-  const Coefficients light = to_frame(radiance, frame);
   std::string rgbe;
   if (!pixels.empty()) rgbe = base64(compressed_planes(rgbe_planes(pixels), pixels.width));
-  return fmt::format(
-      "{{\"width\":{},\"height\":{},\"rgbe\":\"{}\",\"note\":{},\n\"native\":\"{}\",\n"
-      "\"radiance\":\"{}\",\n\"irradiance\":\"{}\"}}",
-      pixels.width, pixels.height, rgbe, script_quoted(note), base64(coefficient_bytes(radiance)),
-      exact_coefficients(light), exact_coefficients(apply_quantity(light, Quantity::irradiance)));
+  std::string out = fmt::format(R"({{"width":{},"height":{},"rgbe":"{}","note":{},"native":"{}")",
+                                pixels.width, pixels.height, rgbe, script_quoted(note),
+                                base64(coefficient_bytes(radiance_of(panorama))));
+  for (const Quantity quantity : kQuantities) {
+    out += fmt::format(",\n\"{}\":\"{}\"", name_of(quantity),
+                       exact_coefficients(coefficients_in(panorama, quantity, frame)));
+  }
+  return out + '}';
 }
 
 }  // namespace shoal::viz

@@ -160,13 +160,14 @@ class ReportWriter {
     IndexEntry entry;
     entry.panorama = &panorama;
     entry.name = shown_name(panorama.name);
+    entry.frame = settings_.frame.value_or(panorama.frame);
     entry.figures = light_figures(panorama);
     entry.exposure = automatic_exposure(radiance);
     entry.ball = irradiance_ball(radiance);
     for (const std::string& warning : panorama.warnings) {
       entry.warnings.push_back(without_folder(warning, panorama.file));
     }
-    std::string data = panorama_data(radiance, settings_.frame, pixels, note);
+    std::string data = panorama_data(panorama, entry.frame, pixels, note);
     std::string thumbnail;
     if (!pixels.empty()) {
       thumbnail =
@@ -201,7 +202,7 @@ class ReportWriter {
     std::string text(page.substr(0, title));
     text += html_escaped(library_.title);
     text += page.substr(title + kTitle.size(), data - title - kTitle.size());
-    text += index_data(library_, entries_, failed_, settings_.frame, inlined_);
+    text += index_data(library_, entries_, failed_, inlined_);
     text += page.substr(data + kData.size());
     return write_file("index.html", text);
   }

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 
 #include "core/result.h"
@@ -21,7 +22,8 @@ namespace shoal::viz {
 struct ReportSettings {
   std::filesystem::path folder;  // made where it is missing
   int thumbnail_width = 512;     // of the pictures that are looked at, >= 2
-  Frame frame;                   // of coefficients, directions and axes
+  std::optional<Frame> frame;    // of coefficients, directions and axes; that of each panorama's
+                                 // table where it is not given
 };
 
 using ReportProgress = std::function<void(std::size_t done, std::size_t count)>;

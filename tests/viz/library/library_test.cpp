@@ -1,10 +1,12 @@
 #include "library/library.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "library/table_library.h"
 #include "made_library.h"
 #include "output/coefficient_table.h"
 #include "sphere/rotation.h"
@@ -94,6 +96,28 @@ TEST_F(LibraryTest, HasVariantsInTheNativeFrame) {
     // Two rotations by signed permutations, of some roundings each.
     expect_near(library.panoramas[i + 1].coefficients, quarter, 1e-13);
     EXPECT_EQ(library.panoramas[i + 1].file, library.panoramas[i].file);
+  }
+}
+
+// In the table's frame its numbers are told to the last bit, whichever way it was written, and
+// irradiance is made of the radiance as the run makes it.
+TEST_F(LibraryTest, TellsTheTablesOwnNumbers) {
+  for (const char* format : {"csv", "json"}) {
+    const auto out = run_library(fmt::format(
+        "tables: {}\nvariants: {{plain: {{}}, hann: {{window: hann, rotate: {{yaw: 17}}, frame: "
+        "openexr}}}}\n",
+        format));
+    const auto records = read_table(out / fmt::format("coefficients.{}", format));
+    const Library library = loaded({out});
+    ASSERT_EQ(2 * library.panoramas.size(), records->size());  // radiance and irradiance
+    for (std::size_t i = 0; i < records->size(); ++i) {
+      const CoefficientRecord& record = (*records)[i];
+      Panorama panorama = library.panoramas[i / 2];
+      EXPECT_EQ(panorama.name, record.panorama);
+      EXPECT_EQ(coefficients_in(panorama, record.quantity, panorama.frame), record.coefficients);
+      panorama.told.erase(Quantity::irradiance);
+      EXPECT_EQ(coefficients_in(panorama, record.quantity, panorama.frame), record.coefficients);
+    }
   }
 }
 

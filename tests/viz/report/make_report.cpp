@@ -32,7 +32,8 @@ std::string csv_of(const Panorama& panorama, Quantity quantity, const Frame& fra
     return {};
   };
   auto table = stream_table(TableFormat::csv, sink, VariantColumn::present);
-  const CoefficientRecord record{panorama.name, panorama.variant, quantity,
+  const std::string variant(panorama.variant.empty() ? kPlainVariant : panorama.variant);
+  const CoefficientRecord record{panorama.name, variant, quantity,
                                  apply_quantity(to_frame(panorama.coefficients, frame), quantity),
                                  frame};
   if (!(*table)->append(record) || !(*table)->commit()) std::abort();
@@ -63,10 +64,14 @@ std::string basis_values() {
 std::string panorama_tables(const Library& library, const Frame& frame) {
   std::string out;
   for (const Panorama& panorama : library.panoramas) {
-    out += fmt::format("{}{{\"name\":{},\"csv\":{{\"radiance\":{},\"irradiance\":{}}}}}",
-                       out.empty() ? "" : ",\n", script_quoted(panorama.name),
-                       script_quoted(csv_of(panorama, Quantity::radiance, frame)),
-                       script_quoted(csv_of(panorama, Quantity::irradiance, frame)));
+    std::string tables;
+    for (const Quantity quantity :
+         {Quantity::radiance, Quantity::irradiance, Quantity::irradiance_over_pi}) {
+      tables += fmt::format("{}\"{}\":{}", tables.empty() ? "" : ",", name_of(quantity),
+                            script_quoted(csv_of(panorama, quantity, frame)));
+    }
+    out += fmt::format("{}{{\"name\":{},\"csv\":{{{}}}}}", out.empty() ? "" : ",\n",
+                       script_quoted(panorama.name), tables);
   }
   return out;
 }
@@ -101,5 +106,5 @@ int main(int argc, char** argv) {
   }
   std::ofstream(folder / "expected.json")
       << "{\"basis\":[" << basis_values() << "],\n\"panoramas\":["
-      << panorama_tables(library, settings.frame) << "]}\n";
+      << panorama_tables(library, settings.frame.value_or(Frame{})) << "]}\n";
 }

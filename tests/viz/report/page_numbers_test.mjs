@@ -48,7 +48,7 @@ await run({
       await page.until(`document.getElementById('copied').textContent === 'Copied'`);
       return page.evaluate('navigator.clipboard.readText()');
     };
-    for (const quantity of ['radiance', 'irradiance']) {
+    for (const quantity of ['radiance', 'irradiance', 'irradiance-over-pi']) {
       await page.click(`#quantity input[value="${quantity}"] + span`);
       const csv = await copied('csv');
       assert.equal(csv, expected.csv[quantity]);
@@ -96,7 +96,7 @@ await run({
       gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, texture, 0);
       gl.viewport(0, 0, 1, 1);
       const numbers = view.texts.irradiance.map(Number);
-      const largest = Math.max(...synthesisedPicture(view.irradiance, view.degree, 32).rgb);
+      const largest = Math.max(...synthesisedPicture(view.lights.irradiance, view.degree, 32).rgb);
       let worst = 0;
       for (const n of [[0, 0, 1], [0.6, -0.8, 0], [-0.48, 0.6, 0.64]]) {
         gl.uniform3fv(gl.getUniformLocation(program, 'n'), n);

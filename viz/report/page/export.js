@@ -1,7 +1,7 @@
 // Coefficients as text to copy. Numbers are the texts that shoal wrote, digit for digit.
 //
-// A record is {name, variant, quantity, degree, frame, texts}: texts[3 i + c] is channel c of
-// coefficient i.
+// A record is {title, name, variant, quantity, degree, frame, texts}: texts[3 i + c] is channel c of
+// coefficient i; `title` is for people, name and variant are the tables'.
 
 function csvQuoted(text) {
   return /[",\r\n]/.test(text) ? '"' + text.replaceAll('"', '""') + '"' : text;
@@ -54,7 +54,7 @@ function glslComment(text) {
 }
 
 // A function of a unit vector in the frame, for GLSL 3.30 and GLSL ES 3.00, from irradiance to degree 2.
-function glslText({name, variant, degree, frame, texts}) {
+function glslText({title, degree, frame, texts}) {
   const shown = Math.min(degree, 2);
   const rows = [];
   const terms = [];
@@ -62,7 +62,7 @@ function glslText({name, variant, degree, frame, texts}) {
     rows.push(`  vec3(${texts.slice(3 * i, 3 * i + 3).join(', ')})`);
     terms.push(`shoal_E[${i}] * (${kGlslBasis[i]})`);
   });
-  return `// Irradiance of ${glslComment(name + (variant && ' ' + variant))}, degree ${shown}, linear Rec.709; divide by pi
+  return `// Irradiance of ${glslComment(title)}, degree ${shown}, linear Rec.709; divide by pi
 // for the light that leaves a white diffuse surface. n is the unit normal in the frame
 // ${frame}: the axes along which the panorama's centre, right and up lie.
 const vec3 shoal_E[${rows.length}] = vec3[${rows.length}](

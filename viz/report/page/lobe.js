@@ -156,7 +156,6 @@ class LobeView {
   // and from where the shape is first seen.
   constructor(canvas, labels, frame) {
     this.canvas = canvas;
-    this.frame = frame;
     this.labels = [1, -1].flatMap(sign => ['x', 'y', 'z'].map((name, axis) => {
       const label = labels.appendChild(document.createElement('span'));
       label.textContent = (sign > 0 ? '+' : '−') + name;
@@ -165,7 +164,7 @@ class LobeView {
       direction[axis] = sign;
       return {label, direction};
     }));
-    this.turn = this.startTurn();
+    this.setFrame(frame);
     const options = {antialias: true, alpha: true};
     this.gl = canvas.getContext('webgl2', options) || canvas.getContext('webgl', options);
     if (this.gl) {
@@ -206,6 +205,13 @@ class LobeView {
     this.stage = stageLines();
     this.linePoints = this.buffer(gl.ARRAY_BUFFER, this.stage.points);
     this.vertexBuffers = [];
+  }
+
+  // What is drawn next is in this frame; as long as it stays, so does the turn.
+  setFrame(frame) {
+    if (this.frame === frame) return;
+    this.frame = frame;
+    this.turn = this.startTurn();
   }
 
   // `own`: 1 for the light's own colours, 0 for the sign's.

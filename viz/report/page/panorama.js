@@ -3,6 +3,7 @@
 const kMapHeight = 128;       // of synthesised pictures
 const kDecodedAtOnce = 8;
 const kEnergyDecades = 4;     // that the bars' logarithmic scale shows: from all to 0.01 %
+const kQuantities = {radiance: 'radiance', irradiance: 'irradiance', 'irradiance-over-pi': 'irradiance / π'};
 const kWideBars = 10;         // as many bars have room for their numbers lying
 
 function byId(id) {
@@ -43,7 +44,7 @@ async function decodedPanorama(data) {
     picture: data.rgbe && canInflate ? await decodedPicture(data.rgbe, data.width, data.height) : null,
     note: data.rgbe && !canInflate ? 'This browser is too old to show the picture.' : sentence(data.note),
     native: decodedCoefficients(data.native),
-    texts: {radiance: data.radiance.split(' '), irradiance: data.irradiance.split(' ')},
+    texts: Object.fromEntries(Object.keys(kQuantities).map(quantity => [quantity, data[quantity].split(' ')])),
   };
 }
 
@@ -67,11 +68,9 @@ const kPanelTitles = {
 class PanoramaView {
   constructor(library) {
     this.library = library;
-    this.frame = library.frame;
-    this.lobe = new LobeView(byId('lobe'), byId('axes'), library.frame);
+    this.lobe = new LobeView(byId('lobe'), byId('axes'), library.frames[0]);
     if (!this.lobe.gl) byId('lobe-scale').textContent = 'This browser has no WebGL, which the lobe needs.';
     this.wish = null;  // the degree asked for; null for all there is
-    byId('frame-text').textContent = `frame ${this.frame.text}: where the picture’s centre, right and up lie`;
     this.listen();
   }
 
@@ -95,6 +94,7 @@ class PanoramaView {
   async show(index) {
     this.index = index;
     this.entry = this.library.panoramas[index];
+    this.frame = this.library.frames[this.entry.frame];
     this.showHead();
     let shown;
     try {
@@ -111,7 +111,9 @@ class PanoramaView {
     this.degree = Math.min(this.wish ?? most, most);
     slider.value = this.degree;
     if (this.native) {
-      this.irradiance = irradianceOf(this.native);
+      const irradiance = irradianceOf(this.native);
+      const overPi = irradiance.map(channel => channel.map(value => value / Math.PI));
+      this.lights = {radiance: this.native, irradiance, 'irradiance-over-pi': overPi};
       this.wholeLobes = {};
       this.showFigures();
       this.showLight();
@@ -126,7 +128,8 @@ class PanoramaView {
     const facts = [variant, file !== name && file, sizeText(pixels), pixels && pixels.format, ...tags];
     byId('subtitle').textContent = facts.filter(fact => fact && fact !== '–').join(' · ');
     byId('warnings').hidden = warnings.length === 0;
-    byId('warnings').replaceChildren(...warnings.map(warning => element('p', '', warning)));
+    byId('warnings').replaceChildren(...warnings.map(warning => element('p', '', sentence(warning))));
+    byId('frame-text').textContent = `frame ${this.frame.text}: where the picture’s centre, right and up lie`;
     document.title = `${name} · shoal`;
   }
 
@@ -135,8 +138,7 @@ class PanoramaView {
     byId('degree-text').textContent = `${this.degree} of ${degreeOf(this.native)}`;
     byId('degree').setAttribute('aria-valuetext', byId('degree-text').textContent);
     this.reconstruction = synthesisedPicture(this.native, this.degree, kMapHeight);
-    const overPi = this.irradiance.map(channel => channel.map(value => value / Math.PI));
-    this.irradianceMap = synthesisedPicture(overPi, this.degree, kMapHeight);
+    this.irradianceMap = synthesisedPicture(this.lights['irradiance-over-pi'], this.degree, kMapHeight);
     this.showPictures();
     this.showLobe();
     this.showEnergy();
@@ -168,7 +170,7 @@ class PanoramaView {
 
   showLobe() {
     const quantity = chosen('quantity');
-    const channels = quantity === 'radiance' ? this.native : this.irradiance;
+    const channels = this.lights[quantity];
     const channel = byId('channel').value;
     const valueOf = channel === 'luminance' ? rgb => dot(rgb, kLuminance) : rgb => rgb[channel];
     // One scale for all degrees, so that the slider shows the lobe grow.
@@ -178,8 +180,9 @@ class PanoramaView {
     const rgb = this.degree === degreeOf(channels) ? all : lobeSamples(channels, this.degree);
     const {center, right, up} = this.frame;
     const nativeToFrame = ([x, y, z]) => center.map((_, k) => -x * center[k] - y * right[k] + z * up[k]);
+    this.lobe.setFrame(this.frame);
     this.lobe.show(lobeMesh(rgb, valueOf, scale || 1, nativeToFrame), chosen('colour') === 'light' ? 1 : 0);
-    byId('lobe').setAttribute('aria-label', `Lobe of the ${quantity} to degree ${this.degree}`);
+    byId('lobe').setAttribute('aria-label', `Lobe of the ${kQuantities[quantity]} to degree ${this.degree}`);
     byId('legend').hidden = chosen('colour') === 'light';
     if (this.lobe.gl) byId('lobe-scale').textContent = `The circles are at ${figureText(scale)}.`;
   }
@@ -194,10 +197,10 @@ class PanoramaView {
     byId('figures-degree').textContent = `to degree ${degree}`;
     if (figures.direction) {
       rows.push(['Light from', directionSentence(figures), false, true]);
-      rows.push(['Direction (x, y, z)', figures.direction.map(figureText).join('  '), false, true]);
+      rows.push(['Direction (x, y, z)', figures.direction.map(figureText).join(', '), false, true]);
     }
-    rows.push(['Mean colour (r, g, b)', figures.mean_rgb.map(figureText).join('  '), false, true]);
-    if (quantity !== 'radiance') rows.push(['Table holds', quantity, false, true]);
+    rows.push(['Mean colour (r, g, b)', figures.mean_rgb.map(figureText).join(', '), false, true]);
+    if (quantity !== 'radiance') rows.push(['Table holds', kQuantities[quantity], false, true]);
     if (pixels) {
       rows.push(['Pixels', pixels.count.toLocaleString('en')]);
       rows.push(['Brightest', figureText(Math.max(...pixels.maximum))]);
@@ -214,10 +217,10 @@ class PanoramaView {
 
   // Bars of the share of all energy, each with its number, on a logarithmic scale.
   showEnergy() {
-    const sums = energies(chosen('quantity') === 'radiance' ? this.native : this.irradiance);
+    const sums = energies(this.lights[chosen('quantity')]);
     const total = sums.reduce((a, b) => a + b, 0);
     const everyLabel = Math.ceil(sums.length / 16);
-    byId('energy-unit').textContent = `of the ${chosen('quantity')}, as parts of all; logarithmic, from ${percentText(10 ** -kEnergyDecades)}`;
+    byId('energy-unit').textContent = `of the ${kQuantities[chosen('quantity')]}, as parts of all; logarithmic, from ${percentText(10 ** -kEnergyDecades)}`;
     const bars = sums.map((sum, l) => {
       const share = total > 0 ? sum / total : 0;
       const height = share > 0 ? Math.max(0, 1 + Math.log10(share) / kEnergyDecades) : 0;
@@ -236,8 +239,9 @@ class PanoramaView {
   }
 
   record(quantity) {
-    return {name: this.entry.name, variant: this.entry.variant, quantity, degree: this.degree,
-            frame: this.frame.text, texts: this.texts[quantity]};
+    const {name, variant} = this.entry;
+    return {title: variant ? `${name} ${variant}` : name, name, variant: variant || this.library.plain, quantity,
+            degree: this.degree, frame: this.frame.text, texts: this.texts[quantity]};
   }
 
   // What Copy copies. The table's own form has tabs, for spreadsheets.
@@ -257,7 +261,7 @@ class PanoramaView {
     byId('copied').textContent = '';
     this.tellMore();
     const quantity = chosen('form') === 'glsl' ? 'irradiance' : chosen('quantity');
-    byId('coefficients-title').textContent = `Coefficients of the ${quantity}`;
+    byId('coefficients-title').textContent = `Coefficients of the ${kQuantities[quantity]}`;
   }
 
   // Whether some of the coefficients lie beyond the right edge.

@@ -44,12 +44,12 @@ class Report {
   }
 
   showHead() {
-    const {title, panoramas, failed, frame} = this.library;
+    const {title, panoramas, failed, frames} = this.library;
     byId('title').textContent = title || 'Library';
     const count = panoramas.length.toLocaleString('en');
     const parts = [`${count} panorama${panoramas.length === 1 ? '' : 's'}`];
     if (failed.length) parts.push(`${failed.length} failed`);
-    parts.push(`frame ${frame.text}`);
+    if (frames.length) parts.push(`frame${frames.length === 1 ? '' : 's'} ${frames.map(frame => frame.text).join(' and ')}`);
     byId('summary').replaceChildren(...parts.flatMap((part, i) => [i ? ' · ' : '', element('span', '', part)]));
     this.title = document.title;
   }
