@@ -203,6 +203,31 @@ await run({
     await expectFirst();
   },
 
+  // From above, the lobe stands before the label of the axis that points down, and no other.
+  async 'labels of the axes are read in both themes'() {
+    await openFirst('sky_0020');
+    const labels = () => page.evaluate(`[...document.querySelectorAll('#axes span:not([hidden])')].map(e => e.textContent).sort()`);
+    const all = ['+x', '+y', '+z', '−x', '−y', '−z'];
+    await page.evaluate(`document.getElementById('lobe').focus()`);
+    for (let i = 0; i < 12; ++i) await page.press('ArrowUp');
+    assert.deepEqual(await labels(), all.filter(name => name !== '−y'));
+    for (const theme of ['light', 'dark']) {
+      // WCAG 2.2, contrast ratio; 4.5 is its level AA.
+      const contrasts = await page.evaluate(`(() => {
+        document.documentElement.dataset.theme = '${theme}';
+        const luminance = colour => dot(colour.map(v => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4), kLuminance);
+        const ground = luminance(cssColour('--stage'));
+        return [...document.querySelectorAll('#axes span')].map(label => {
+          const style = getComputedStyle(label);
+          const ink = luminance(style.color.match(/\\d+/g).slice(0, 3).map(v => v / 255));
+          return style.opacity < 1 ? 0 : (Math.max(ink, ground) + 0.05) / (Math.min(ink, ground) + 0.05);
+        });
+      })()`);
+      assert.equal(contrasts.length, 6);
+      assert.ok(Math.min(...contrasts) >= 4.5, `${theme}: ${contrasts}`);
+    }
+  },
+
   async 'quantity, colour, channel and degree change the lobe'() {
     await openFirst('sky_0020');
     const seen = [await page.picture('#lobe')];

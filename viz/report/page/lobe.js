@@ -48,6 +48,7 @@ const kLineFragmentShader = `
   void main() { gl_FragColor = colour; }`;
 
 const kAxisLength = 1.2;
+const kLabelReach = 0.04;  // above the widest step between vertices, 0.026
 const kMargin = 1.34;  // what half the stage's shorter side shows
 
 function cross(a, b) {
@@ -321,8 +322,21 @@ class LobeView {
     for (const {label, direction} of this.labels) {
       const [x, y, z] = axes.map(axis => (kAxisLength + 0.07) * dot(axis, direction));
       label.style.transform = `translate(-50%, -50%) translate(${width / 2 + half * x}px, ${height / 2 - half * y}px)`;
-      label.style.opacity = z < -0.2 ? 0.55 : 1;
+      label.classList.toggle('behind', z < -0.2);
+      label.hidden = z < 0 && this.covers(axes, x, y);
     }
+  }
+
+  // Whether the surface, seen along the third axis, lies within kLabelReach of a point of the stage. It
+  // ends at 1 and labels stand beyond kAxisLength: it is always before those that stand behind the middle.
+  covers([right, up], x, y) {
+    const p = this.mesh?.positions ?? [];
+    for (let i = 0; i < p.length; i += 3) {
+      const dx = right[0] * p[i] + right[1] * p[i + 1] + right[2] * p[i + 2] - x;
+      const dy = up[0] * p[i] + up[1] * p[i + 1] + up[2] * p[i + 2] - y;
+      if (dx * dx + dy * dy < kLabelReach * kLabelReach) return true;
+    }
+    return false;
   }
 
   turnBy(yaw, pitch) {
