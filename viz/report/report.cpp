@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kTableWidth = 128;             // of the table's thumbnails, shown at 84
+constexpr int kTableWidth = 128;             // of the table's thumbnails, shown at 68
 constexpr std::size_t kPicturesAtOnce = 32;  // previews made by one run of `shoal preview`
 constexpr std::string_view kPageMark = "<meta name=\"generator\" content=\"shoal report\">";
 constexpr std::string_view kPanoramaMark = "shoalPanorama(";

@@ -21,9 +21,9 @@ function figureText(value) {
 // Of a part of one. What is there at all is never told as nothing.
 function percentText(value) {
   if (value === null || value === undefined) return '–';
-  if (value === 0) return '0 %';
-  if (value < 5e-5) return '< 0.01 %';
-  return `${(100 * value).toFixed(value < 0.1 ? 2 : 1)} %`;
+  if (value === 0) return '0\u00A0%';
+  if (value < 5e-5) return '<\u00A00.01\u00A0%';
+  return `${(100 * value).toFixed(value < 0.1 ? 2 : 1)}\u00A0%`;
 }
 
 function kelvinText(value) {
@@ -49,7 +49,7 @@ function degreesText(value) {
 
 function directionText(figures) {
   if (figures.elevation === undefined) return '–';
-  return `${degreesText(figures.elevation)} ${sideText(figures)}`;
+  return `${degreesText(figures.elevation)}\n${sideText(figures)}`;
 }
 
 // The same in full.
@@ -62,38 +62,39 @@ function directionSentence(figures) {
 }
 
 // In the order of the table's columns. `title`: of the column, which a figure without one does not have;
-// columns are left out where no panorama has the figure. `width` in pixels.
+// columns are left out where no panorama has the figure. `width` in pixels is the least; all together
+// leave room for the names in a window that is 1280 wide. Titles may break, and so may what `show` gives.
 const kFigures = [
-  {name: 'mean', title: 'Mean', width: 80, help: 'Mean luminance of the radiance over the sphere',
+  {name: 'mean', title: 'Mean', width: 66, help: 'Mean luminance of the radiance over the sphere',
    value: p => p.figures.mean, show: figureText},
-  {name: 'contrast', title: 'Contrast', width: 96, help: '(max − min) / (max + min) of the irradiance',
+  {name: 'contrast', title: 'Contrast', width: 66, help: '(max − min) / (max + min) of the irradiance',
    value: p => p.figures.contrast, show: figureText},
-  {name: 'directionality', title: 'Directionality', width: 126,
+  {name: 'directionality', title: 'Direction\u00ADality', width: 72,
    help: 'How much of the light comes from one side: 0 evenly, 1 one point',
    value: p => p.figures.directionality, show: figureText},
-  {name: 'elevation', title: 'Light from', width: 158,
+  {name: 'elevation', title: 'Light from', width: 90,
    help: 'Where the dominant light is: degrees above the horizon, and the side for one who looks at the picture’s centre',
    value: p => p.figures.elevation, show: (value, p) => directionText(p.figures)},
   {name: 'azimuth', value: p => p.figures.azimuth},
-  {name: 'minimum_irradiance', title: 'Min. irr.', width: 94,
+  {name: 'minimum_irradiance', title: 'Least irradiance', width: 76,
    help: 'Least irradiance in any direction and channel, by the channel’s mean; below zero where the sum rings',
    value: p => p.figures.minimum_irradiance, show: figureText, bad: value => value < 0},
-  {name: 'negative_fraction', title: 'Below 0', width: 88, help: 'Part of the sphere where the irradiance is below zero',
+  {name: 'negative_fraction', title: 'Below\nzero', width: 74, help: 'Part of the sphere where the irradiance is below zero',
    value: p => p.figures.negative_fraction, show: percentText, bad: value => value > 0},
-  {name: 'rms_error', title: 'RMS error', width: 100,
+  {name: 'rms_error', title: 'RMS error', width: 60,
    help: 'Of the irradiance against the exact one, over the sphere and the channels',
    value: p => p.figures.rms_error, show: percentText},
-  {name: 'max_error', title: 'Max. error', width: 102,
+  {name: 'max_error', title: 'Max. error', width: 60,
    help: 'Largest error of the irradiance in any direction and channel, by the channel’s mean',
    value: p => p.figures.max_error, show: percentText},
-  {name: 'key_temperature', title: 'Key', width: 94, help: 'Colour temperature of the dominant light',
+  {name: 'key_temperature', title: 'Key\ncolour', width: 70, help: 'Colour temperature of the dominant light',
    value: p => p.figures.key_temperature, show: kelvinText},
-  {name: 'fill_temperature', title: 'Fill', width: 94, help: 'Colour temperature of what is left without the dominant light',
+  {name: 'fill_temperature', title: 'Fill\ncolour', width: 70, help: 'Colour temperature of what is left without the dominant light',
    value: p => p.figures.fill_temperature, show: kelvinText},
-  {name: 'degree', title: 'Degree', width: 82, value: p => p.degree, show: String},
-  {name: 'width', title: 'Pixels', width: 122, value: p => p.pixels ? p.pixels.width : null,
-   show: (value, p) => sizeText(p.pixels)},
-  {name: 'warnings', title: 'Warnings', width: 96, value: p => p.warnings.length, show: value => value ? String(value) : '',
+  {name: 'degree', title: 'Degree', width: 56, help: 'To which the coefficients go', value: p => p.degree, show: String},
+  {name: 'width', title: 'Pixels', width: 60, help: 'Of the panorama’s own picture',
+   value: p => p.pixels ? p.pixels.width : null, show: (value, p) => sizeText(p.pixels).replace(' ×', '\n×')},
+  {name: 'warnings', title: 'Warn\u00ADings', width: 56, value: p => p.warnings.length, show: value => value ? String(value) : '',
    bad: value => value > 0, isPresent: p => p.warnings.length > 0},
 ];
 

@@ -4,8 +4,8 @@ const kRowHeight = 60;
 const kRowsBeyondSight = 8;
 const kWordOrder = new Intl.Collator('en', {numeric: true, sensitivity: 'base'});
 
-const kLookWidth = 150;
-const kLeastNameWidth = 230;
+const kLookWidth = 124;
+const kLeastNameWidth = 180;
 
 const kNameColumn = {name: 'name', title: 'Panorama', text: true, value: p => `${p.name} ${p.variant}`};
 
@@ -44,7 +44,7 @@ class List {
       const heading = element('th', column.text ? 'text name' : '');
       heading.scope = 'col';
       heading.dataset.key = column.name;
-      if (column.width) heading.style.width = `${column.width}px`;
+      if (column.width) heading.style.width = `calc(${column.width}px + var(--loose))`;
       const button = heading.appendChild(element('button', '', column.title));
       button.type = 'button';
       if (column.help) button.title = column.help;
