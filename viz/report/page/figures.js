@@ -23,7 +23,7 @@ function percentText(value) {
   if (value === null || value === undefined) return '–';
   if (value === 0) return '0\u00A0%';
   if (value < 5e-5) return '<\u00A00.01\u00A0%';
-  return `${(100 * value).toFixed(value < 0.1 ? 2 : 1)}\u00A0%`;
+  return `${(100 * value).toFixed(value < 0.1 ? 2 : value < 1 ? 1 : 0)}\u00A0%`;
 }
 
 function kelvinText(value) {
