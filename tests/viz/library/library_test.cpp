@@ -16,7 +16,6 @@ namespace shoal::viz {
 namespace {
 
 using test::LibraryTest;
-using test::write_text;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -125,13 +124,9 @@ TEST_F(LibraryTest, TellsTheTablesOwnNumbers) {
 // a CSV table does not say in which one it is; one that asks for nothing has its pixels' light.
 TEST_F(LibraryTest, ShowsTheLightThatTheManifestAskedFor) {
   make_panoramas();
-  write_text(folder / "own.yaml",
-             "shoal: 1\noutput: own\npanoramas:\n"
-             "  - {file: a.hdr, name: raw, frame: openexr}\n"
-             "  - {file: a.hdr, name: turned, frame: openexr, exposure: 1, rotate: {yaw: 90}}\n");
-  const Finished finished = shoal({"run", (folder / "own.yaml").string()});
-  ASSERT_EQ(finished.exit_status, 0) << finished.err;
-  const Library library = loaded({folder / "own"});
+  const Library library = loaded({run_manifest(
+      "{file: a.hdr, name: raw, frame: openexr}, "
+      "{file: a.hdr, name: turned, frame: openexr, exposure: 1, rotate: {yaw: 90}}")});
   ASSERT_THAT(names_of(library), ElementsAre("raw", "turned"));
   EXPECT_EQ(library.panoramas[0].change, LightChange{});
   Coefficients twice = library.panoramas[0].coefficients;
@@ -175,14 +170,10 @@ TEST_F(LibraryTest, HasTheQualityOfEachVariant) {
 // whatever the light looks like; but not of light that was added or taken out.
 TEST_F(LibraryTest, TellsWhatVariantsMakeOfThePixels) {
   make_panoramas();
-  write_text(folder / "own.yaml",
-             "shoal: 1\noutput: own\npanoramas: [{file: a.hdr, exposure: 1, frame: "
-             "openexr}]\nvariants: {plain: "
-             "{}, dim: {exposure: -2}, soft: {window: hann}, both: {rotate: {pitch: 30}, matrix: "
-             "[[0, 1, 0], [0.5, 0, 0], [0, 0, 1]]}, rest: {dominant: remove}}\n");
-  const Finished finished = shoal({"run", (folder / "own.yaml").string()});
-  ASSERT_EQ(finished.exit_status, 0) << finished.err;
-  const Library library = loaded({folder / "own"});
+  const Library library = loaded({run_manifest(
+      "{file: a.hdr, exposure: 1, frame: openexr}",
+      "variants: {plain: {}, dim: {exposure: -2}, soft: {window: hann}, both: {rotate: {pitch: "
+      "30}, matrix: [[0, 1, 0], [0.5, 0, 0], [0, 0, 1]]}, rest: {dominant: remove}}\n")});
   ASSERT_THAT(names_of(library), ElementsAre("a", "a.dim", "a.soft", "a.both", "a.rest"));
   EXPECT_EQ(frame_of(library), *parse_frame("openexr"));
   const auto change = [&](std::size_t i) { return library.panoramas[i].change; };
@@ -201,15 +192,12 @@ TEST_F(LibraryTest, TellsWherePixelsAreNotTheWholeLight) {
   make_panoramas();
   const std::string lamp = "lights: [{ambient: {radiance: 1}}]";
   const std::string sky = "sky: {sun: {elevation: 30}, size: [32, 16]}";
-  write_text(folder / "own.yaml",
-             "shoal: 1\noutput: own\npanoramas:\n  - {file: a.hdr, name: a_lit, " + lamp +
-                 "}\n  - {file: a.hdr, name: b_sunless, sun: {top: 0.01, action: remove}}\n  - "
-                 "{file: a.hdr, name: c_seen, sun: {top: 0.01}}\n  - {name: d_lamp, " +
-                 lamp + "}\n  - {name: e_sky, " + sky + ", " + lamp + "}\n  - {name: f_sky, " +
-                 sky + ", " + lamp + ", picture: {size: [32, 16]}}\n");
-  const Finished finished = shoal({"run", (folder / "own.yaml").string()});
-  ASSERT_EQ(finished.exit_status, 0) << finished.err;
-  const Library library = loaded({folder / "own"});
+  const Library library =
+      loaded({run_manifest("{file: a.hdr, name: a_lit, " + lamp +
+                           "}, {file: a.hdr, name: b_sunless, sun: {top: 0.01, action: remove}}, "
+                           "{file: a.hdr, name: c_seen, sun: {top: 0.01}}, {name: d_lamp, " +
+                           lamp + "}, {name: e_sky, " + sky + ", " + lamp + "}, {name: f_sky, " +
+                           sky + ", " + lamp + ", picture: {size: [32, 16]}}")});
   ASSERT_EQ(library.panoramas.size(), 6U);
   const bool whole[] = {false, false, true, true, false, true};
   for (std::size_t i = 0; i < 6; ++i) {
@@ -219,13 +207,9 @@ TEST_F(LibraryTest, TellsWherePixelsAreNotTheWholeLight) {
 
 // What was painted of an entry without a file stands for its pixels.
 TEST_F(LibraryTest, SeesThePictureOfAnEntryWithoutAFile) {
-  write_text(
-      folder / "sky.yaml",
-      "shoal: 1\noutput: skies\npanoramas: [{name: day/noon, sky: {sun: {elevation: 60}, size: "
-      "[32, 16]}, picture: {size: [32, 16]}}, {name: key, lights: [{ambient: {radiance: 1}}]}]\n");
-  const Finished finished = shoal({"run", (folder / "sky.yaml").string()});
-  ASSERT_EQ(finished.exit_status, 0) << finished.err;
-  const Library library = loaded({folder / "skies"});
+  const Library library = loaded({run_manifest(
+      "{name: day/noon, sky: {sun: {elevation: 60}, size: [32, 16]}, picture: {size: [32, 16]}}, "
+      "{name: key, lights: [{ambient: {radiance: 1}}]}")});
   ASSERT_THAT(names_of(library), ElementsAre("day/noon", "key"));
   EXPECT_TRUE(std::filesystem::exists(library.panoramas[0].file)) << library.panoramas[0].file;
   EXPECT_TRUE(library.panoramas[0].pixels);

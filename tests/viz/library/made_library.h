@@ -44,16 +44,20 @@ class LibraryTest : public testing::Test {
     write_text(folder / "bad.hdr", "no picture");
   }
 
-  // Runs a manifest over them; c comes first. The output folder is `out`.
+  // Runs a manifest of these panoramas and further keys. Returns its output folder.
+  std::filesystem::path run_manifest(const std::string& panoramas, const std::string& more = "",
+                                     int exit_status = 0) {
+    write_text(folder / "m.yaml", "shoal: 1\noutput: out\npanoramas: [" + panoramas + "]\n" + more);
+    const Finished finished = shoal({"run", (folder / "m.yaml").string()});
+    EXPECT_EQ(finished.exit_status, exit_status) << finished.err;
+    return folder / "out";
+  }
+
+  // Runs one over make_panoramas(); c comes first.
   std::filesystem::path run_library(const std::string& more) {
     make_panoramas();
-    write_text(folder / "m.yaml",
-               "shoal: 1\noutput: out\npanoramas: [{file: c.hdr, tags: [out, sun]}, {file: a.hdr}, {file: b.exr}, "
-               "{file: bad.hdr}]\n" +
-                   more);
-    const Finished finished = shoal({"run", (folder / "m.yaml").string()});
-    EXPECT_EQ(finished.exit_status, 1) << finished.err;  // bad.hdr
-    return folder / "out";
+    return run_manifest(
+        "{file: c.hdr, tags: [out, sun]}, {file: a.hdr}, {file: b.exr}, {file: bad.hdr}", more, 1);
   }
 
   TemporaryFolder folder;

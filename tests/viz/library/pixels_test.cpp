@@ -97,15 +97,10 @@ TEST_F(LibraryTest, PaintsWhatHasNoFile) {
       "lights: [{disk: {direction: [1, 2, 1], radius: 35, radiance: [3, 2, 1]}}, {ambient: "
       "{radiance: 0.5}}, {cosine: {direction: [0, -1, 0.5], radiance: 2}}]";
   const std::string picture = ", picture: {size: [64, 32]}";
-  test::write_text(folder / "m.yaml",
-                   "shoal: 1\noutput: out\npanoramas:\n  - {name: a, " + sky + "}\n  - {name: b, " +
-                       sky + picture + "}\n  - {name: c, " + lights + "}\n  - {name: d, " + lights +
-                       picture +
-                       "}\n  - {name: e, lights: [{directional: {direction: [0, 0, 1], "
-                       "irradiance: 1}}]}\n");
-  const Finished finished = shoal({"run", (folder / "m.yaml").string()});
-  ASSERT_EQ(finished.exit_status, 0) << finished.err;
-  const auto library = load_library({folder / "out"});
+  const auto library = load_library({run_manifest(
+      "{name: a, " + sky + "}, {name: b, " + sky + picture + "}, {name: c, " + lights +
+      "}, {name: d, " + lights + picture +
+      "}, {name: e, lights: [{directional: {direction: [0, 0, 1], irradiance: 1}}]}")});
   ASSERT_TRUE(library) << library.error().text();
   ASSERT_THAT(library->panoramas, SizeIs(5));
   PixelCache cache(*library);
