@@ -27,7 +27,7 @@ namespace {
 enum class Cameras { keep, reset };
 
 // NAME.SCENE.png in the working folder, or with a number where there is such a picture: none that
-// somebody saved is lost.
+// somebody saved is lost. Told in full, since nobody sees in a window where it was opened.
 std::filesystem::path free_file(const Library& library, const ViewerState& state) {
   std::string name = subject_name(library, state);
   for (char& c : name) {
@@ -39,7 +39,8 @@ std::filesystem::path free_file(const Library& library, const ViewerState& state
   for (int number = 2; std::filesystem::exists(file, code); ++number) {
     file = fmt::format("{}-{}.png", stem, number);
   }
-  return file;
+  const auto full = std::filesystem::absolute(file, code);
+  return code ? file : full;
 }
 
 class Viewer {
@@ -71,6 +72,7 @@ class Viewer {
 
  private:
   void press(char key) {
+    take_notice_away();
     switch (press_key(key, library_, state_)) {
       case KeyEffect::nothing:
         return;
@@ -99,6 +101,7 @@ class Viewer {
     shown_scene_ = state_.scene;
     shown_size_ = size();
     if (help_) help_.emplace(show_help(*window_));
+    notice_.reset();
     const std::string name = subject_name(library_, state_);
     window_->SetWindowName(fmt::format("shoal - {} - {}", name, name_of(state_.scene)).c_str());
     window_->Render();
@@ -145,15 +148,25 @@ class Viewer {
     window_->Render();
   }
 
+  void take_notice_away() {
+    if (!notice_) return;
+    notice_->take_away();
+    notice_.reset();
+    window_->Render();
+  }
+
   // Of the scene alone, without the help.
   void save() {
     const auto file = free_file(library_, state_);
     if (help_) help_->take_away();
-    const Status written = write_png(take_picture(*window_), file);
+    Status written = write_png(take_picture(*window_), file);
+    if (!written) written.error().hint = "start `shoal view` in another folder";
     if (help_) help_.emplace(show_help(*window_));
+    const std::string said = written ? "saved " + file.string() : written.error().text();
+    notice_.emplace(show_notice(said, *window_));
     window_->Render();
     if (written) {
-      tell("saved " + file.string());
+      tell(said);
     } else {
       report_error(written.error());
     }
@@ -168,6 +181,7 @@ class Viewer {
   SceneKind shown_scene_ = SceneKind::basis;
   PictureSize shown_size_;
   std::optional<Stage> help_;
+  std::optional<Stage> notice_;  // until the next key
   vtkNew<vtkRenderWindow> window_;
   vtkNew<vtkRenderWindowInteractor> interactor_;
   vtkNew<ViewerStyle> style_;

@@ -41,6 +41,30 @@ Stage show_help(vtkRenderWindow& window) {
   return sheet;
 }
 
+Stage show_notice(const std::string& text, vtkRenderWindow& window) {
+  constexpr double kWidest = 0.9;
+  Stage sheet = Stage::over(window);
+  const auto lines = sheet.wrapped(text, TextSize::label, kWidest);
+  double width = 0.0;
+  for (const std::string& words : lines) {
+    width = std::max(width, std::min(kWidest, sheet.text_width(words, TextSize::label)));
+  }
+  const double line = kLeading * sheet.line_height(TextSize::label);
+  const double side = line * sheet.height() / sheet.width();  // as wide as a line is high
+  const double half_width = 0.5 * width + side;
+  const double top = line * (static_cast<double>(lines.size()) + 1.2);
+  const Rectangle card{0.5 - half_width, 0.5 * line, 0.5 + half_width, top};
+  sheet.add_box(card, theme::kPanel);
+  sheet.add_outline(card, theme::kAccent);
+  double y = top - 0.1 * line;
+  for (const std::string& words : lines) {
+    y -= line;
+    sheet.add_text(0.5, y, words,
+                   {.align = TextAlign::center, .max_width = kWidest, .cut = TextCut::middle});
+  }
+  return sheet;
+}
+
 void show_failure(const std::string& title, const std::string& subject, const Error& error,
                   vtkRenderWindow& window) {
   Stage stage(window);

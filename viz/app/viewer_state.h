@@ -51,7 +51,7 @@ inline constexpr KeyHelp kKeyHelp[] = {
     {"E  e", "exposure up and down by half a stop"},
     {"c", "channel: luminance, red, green, blue"},
     {"r", "view as it was before the mouse turned it"},
-    {"s", "save the picture as NAME.SCENE.png here"},
+    {"s", "save the picture as NAME.SCENE.png here, numbered from the second on"},
     {"h", "these keys on and off"},
     {"q", "quit"},
     {"mouse", "left turns, middle moves, right or wheel comes nearer"},

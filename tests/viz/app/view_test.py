@@ -25,14 +25,15 @@ class Window:
     """shoal view, running."""
 
     def __init__(self, test, display, *arguments):
-        self.test, self.display = test, display
-        self.process = subprocess.Popen(
-            [support.BINARY, "view", *arguments, "--size", f"{WIDTH}x{HEIGHT}"], cwd=test.folder,
-            env=plain_environment(DISPLAY=display.name), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.test, self.display, self.messages = test, display, test.folder / "messages"
+        with open(self.messages, "w") as messages:
+            self.process = subprocess.Popen(
+                [support.BINARY, "view", *arguments, "--size", f"{WIDTH}x{HEIGHT}"], cwd=test.folder,
+                env=plain_environment(DISPLAY=display.name), stdout=subprocess.PIPE, stderr=messages, text=True)
         test.addCleanup(self.stop)
         display.point(WIDTH // 2, HEIGHT // 2)
         wait_until(lambda: display.titles() or self.process.poll() is not None, "no window opens")
-        test.assertIsNone(self.process.poll(), self.process.communicate() if self.process.poll() else "")
+        test.assertIsNone(self.process.poll(), self.messages.read_text())
         self.now = self.settled(None)
 
     def stop(self):
@@ -59,11 +60,22 @@ class Window:
         self.now = self.settled(before)
         return self.now
 
+    def saved(self):
+        """The pictures of which it was said that they were saved."""
+        mark = "saved "
+        lines = self.messages.read_text().splitlines()
+        return [pathlib.Path(line.removeprefix(mark)) for line in lines if line.startswith(mark)]
+
     def save(self):
-        """Presses s and waits for the picture; all that was pressed before has been dealt with then."""
-        before = set(self.test.folder.glob("*.png"))
+        """Presses s and waits for the picture; all that was pressed before has been dealt with then. A key without a
+        meaning takes the words about it away again."""
+        count = len(self.saved())
         self.display.press("s")
-        return wait_until(lambda: set(self.test.folder.glob("*.png")) - before, "no picture is saved").pop().name
+        wait_until(lambda: len(self.saved()) > count, "no picture is saved")
+        told = self.settled(None)
+        self.display.press("f")
+        self.settled(told)
+        return self.saved()[-1].name
 
     def drag(self, start, end, button=1):
         def turn():
@@ -87,9 +99,8 @@ class Window:
 
     def quit(self):
         self.display.press("q")
-        out, err = self.process.communicate(timeout=60)
-        self.test.assertEqual((self.process.returncode, out), (0, ""), err)
-        return err
+        out, _ = self.process.communicate(timeout=60)
+        self.test.assertEqual((self.process.returncode, out), (0, ""), self.messages.read_text())
 
 
 class View(ShoalTest):
@@ -193,18 +204,29 @@ class View(ShoalTest):
         files = [window.save()]
         window.press("h")
         files.append(window.save())  # without the help
-        self.display.resize(500, 300)
+        window.changed_by(lambda: self.display.resize(500, 300))
         files.append(window.save())
         window.press("4")
         files.append(window.save())
         self.assertEqual(files, ["harbour.lobes.png", "harbour.lobes-2.png", "harbour.lobes-3.png",
                                  "harbour.degrees.png"])
-        err = window.quit()
-        self.assertEqual([line for line in err.splitlines() if "saved" in line], [f"saved {name}" for name in files])
+        window.quit()
+        self.assertEqual(window.saved(), [self.folder.resolve() / name for name in files])
         for name, scene, size in zip(files, ("lobes", "lobes", "lobes", "degrees"),
                                      (f"{WIDTH}x{HEIGHT}", f"{WIDTH}x{HEIGHT}", "500x300", "500x300")):
             self.expect(0, "render", "harbour.hdr", "--degree", "4", "--scene", scene, "--size", size, "-o", "wish.png")
             self.assertEqual((self.folder / name).read_bytes(), (self.folder / "wish.png").read_bytes(), name)
+
+    def test_a_picture_that_cannot_be_saved_is_told(self):
+        name = 300 * "long"  # no file system takes so much
+        made_lights.write_table(self.folder / "long.csv", {name: made_lights.light_from_above()})
+        window = Window(self, self.display, "long.csv")
+        start = window.now
+        window.press("s")
+        window.expect_back("f", start)
+        window.quit()
+        self.assertRegex(window.messages.read_text(), r"error: /.*: cannot be .*: File name too long \(.*\)")
+        self.assertEqual(list(self.folder.glob("*.png")), [])
 
     def test_the_window_over_degrees(self):
         """w is the Hann window of the degree that is shown: the picture is that of coefficients windowed here."""
