@@ -4,9 +4,14 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <iterator>
+#include <set>
+#include <string_view>
 #include <utility>
 
 #include "app/messages.h"
+#include "core/diagnostic.h"
 
 namespace shoal::viz {
 namespace {
@@ -17,16 +22,53 @@ constexpr int kMaxSide = 8192;
 constexpr int kMaxGrid = 50;
 constexpr double kMaxStops = 100.0;
 
-std::string names_in(const Library& library) {
-  std::string names;
-  const std::size_t count = std::min(library.panoramas.size(), kMaxNamesTold);
-  for (std::size_t i = 0; i < count; ++i) {
-    names += (i == 0 ? "" : ", ") + full_name(library.panoramas[i]);
+// Each text once, in their order; the first few of many.
+std::string listed(const std::vector<std::string>& texts) {
+  std::vector<std::string> distinct;
+  std::set<std::string> known;
+  for (const std::string& text : texts) {
+    if (known.insert(text).second) distinct.push_back(text);
   }
-  if (library.panoramas.size() > count) {
-    names += fmt::format(" and {} more", library.panoramas.size() - count);
+  const std::size_t told = std::min(distinct.size(), kMaxNamesTold);
+  std::string list = fmt::format("{}", fmt::join(distinct.begin(), distinct.begin() + told, ", "));
+  if (distinct.size() > told) list += fmt::format(" and {} more", distinct.size() - told);
+  return list;
+}
+
+// What was probably meant by a pattern that chooses nothing: the nearest name, or those that it is
+// a part of; else empty.
+std::string meant_by(const std::string& pattern, const Library& library) {
+  std::set<std::string> names;
+  for (const Panorama& panorama : library.panoramas) {
+    names.insert({panorama.name, variant_name(panorama)});
   }
-  return names;
+  const std::vector<std::string_view> candidates(names.begin(), names.end());
+  const std::string_view near = closest_match(pattern, candidates);
+  if (!near.empty() || pattern.empty()) return std::string(near);
+  const std::string around =
+      (pattern.starts_with('*') ? "" : "*") + pattern + (pattern.ends_with('*') ? "" : "*");
+  return find_panoramas(library, around).empty() ? "" : around;
+}
+
+Error nothing_like(const std::string& pattern, const Library& library) {
+  const auto failed = std::ranges::find(library.failed, pattern, &FailedPanorama::name);
+  if (failed != library.failed.end()) {
+    return Error{ErrorCode::not_found, "has failed: " + failed->error, pattern, ""};
+  }
+  std::vector<std::string> names;
+  std::vector<std::string> variants;
+  for (const Panorama& panorama : library.panoramas) {
+    names.push_back(panorama.name);
+    variants.push_back(variant_of(panorama));
+  }
+  const std::string meant = meant_by(pattern, library);
+  std::string hint = meant.empty() ? "" : fmt::format("did you mean \"{}\"? ", meant);
+  hint += "the names are " + listed(names);
+  if (std::ranges::count(variants, variants.front()) < std::ssize(variants)) {
+    hint += "; the variants are " + listed(variants);
+  }
+  return Error{ErrorCode::usage, fmt::format("no panorama is named like \"{}\"", pattern), "",
+               std::move(hint)};
 }
 
 // "640x480", each within [low, high].
@@ -70,7 +112,8 @@ void add_library_options(CLI::App& command, LibraryOptions& options, Sources sou
       "Output folder of `shoal run`; or a store, a table, panoramas or folders of them");
   out->required(sources == Sources::needed);
   command.add_option("--panorama", options.panorama,
-                     "Only panoramas with a name, or NAME.VARIANT, like this glob");
+                     "Only panoramas whose name is like this glob, in all their variants, or "
+                     "variants whose NAME.VARIANT is, such as sunset.plain or '*.soft'");
   command
       .add_option("--degree", options.degree,
                   "Highest degree that is shown; of panoramas that are projected for it, 2 by "
@@ -96,8 +139,7 @@ Result<Library> load(const LibraryOptions& options) {
 Result<std::vector<std::size_t>> select(const Library& library, const std::string& pattern) {
   std::vector<std::size_t> found = find_panoramas(library, pattern);
   if (!found.empty()) return found;
-  return Error{ErrorCode::usage, fmt::format("no panorama is named like \"{}\"", pattern), "",
-               "there are " + names_in(library)};
+  return nothing_like(pattern, library);
 }
 
 Result<Library> load_selected(const LibraryOptions& options) {
@@ -124,16 +166,19 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
                      "Columns and rows of a contact sheet's page, such as 5x4; by default those "
                      "that suit the library, 20 panoramas a page at most");
   command.add_option("--with", options.with,
-                     "compare: the panorama or NAME.VARIANT to compare with");
+                     "compare: the panorama to compare with, as in --panorama; NAME.VARIANT where "
+                     "it has several variants");
 }
 
 Result<std::optional<std::size_t>> select_other(const Library& library, const std::string& with) {
   if (with.empty()) return std::optional<std::size_t>();
   SHOAL_ASSIGN_OR_RETURN(found, select(library, with));
   if (found.size() == 1) return std::optional<std::size_t>(found.front());
-  return Error{ErrorCode::usage, fmt::format("--with {} names {} panoramas", with, found.size()),
-               "",
-               fmt::format("name one, such as {}", full_name(library.panoramas[found.front()]))};
+  const Panorama& first = library.panoramas[found.front()];
+  const bool is_alone = find_panoramas(library, first.name).size() == 1;
+  return Error{ErrorCode::usage,
+               fmt::format("--with {} names {}", with, count_text(part_of(library, found))), "",
+               fmt::format("name one, such as {}", is_alone ? first.name : variant_name(first))};
 }
 
 Result<SceneChoice> understand(const SceneOptions& options, const std::optional<int>& degree) {

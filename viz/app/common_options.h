@@ -28,7 +28,8 @@ void add_library_options(CLI::App& command, LibraryOptions& options, Sources sou
 // of load_library(); not_found, where it has no panorama.
 [[nodiscard]] Result<Library> load(const LibraryOptions& options);
 
-// The panoramas that a pattern matches. Error: usage, with the names that there are.
+// The panoramas that a pattern matches. Errors: usage, with the names that there are; not_found, of
+// one that failed.
 [[nodiscard]] Result<std::vector<std::size_t>> select(const Library& library,
                                                       const std::string& pattern);
 

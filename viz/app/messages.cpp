@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <string>
 
 #include "app/commands.h"
@@ -40,15 +41,17 @@ void print_lesser_degrees(const Library& library, int degree) {
   const auto is_lesser = [&](const Panorama& panorama) {
     return panorama.coefficients.degree < degree;
   };
-  const auto count = std::ranges::count_if(library.panoramas, is_lesser);
-  if (count == 0) return;
-  const Panorama& first = *std::ranges::find_if(library.panoramas, is_lesser);
+  Library lesser;
+  std::ranges::copy_if(library.panoramas, std::back_inserter(lesser.panoramas), is_lesser);
+  if (lesser.panoramas.empty()) return;
+  const Panorama& first = lesser.panoramas.front();
   const std::string who =
-      count == 1 ? fmt::format("{} ends at degree {}", full_name(first), first.coefficients.degree)
-                 : fmt::format("{} panoramas end before it, such as {} at {}", count,
-                               full_name(first), first.coefficients.degree);
-  print_message(Style::yellow, "warning:",
-                fmt::format("--degree {}: {}; all that there is is shown", degree, who));
+      lesser.panoramas.size() == 1
+          ? fmt::format(": {} ends at degree {}", full_name(first), first.coefficients.degree)
+          : fmt::format(" is beyond {}, such as {} at {}", count_text(lesser), full_name(first),
+                        first.coefficients.degree);
+  print_message(Style::yellow,
+                "warning:", fmt::format("--degree {}{}; all that there is is shown", degree, who));
 }
 
 Progress::Progress(std::string_view what)

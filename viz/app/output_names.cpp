@@ -85,7 +85,9 @@ Result<std::vector<fs::path>> output_files(const std::string& output, OutputForm
   if (names.size() > 1 && pattern.find(placeholder) == std::string::npos) {
     return Error{
         ErrorCode::usage, fmt::format("one file for {} pictures", names.size()), output,
-        fmt::format("a folder, -o DIR/, or {} in the file's name gives each its own", placeholder)};
+        fmt::format("a folder, -o DIR/, or {} in the file's name gives each its own; {} "
+                    "chooses one",
+                    placeholder, placeholder == "{page}" ? "--page" : "--panorama NAME.VARIANT")};
   }
   std::vector<fs::path> files;
   std::set<fs::path> taken;

@@ -6,6 +6,7 @@
 #include <array>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -119,6 +120,10 @@ std::string title_of(const std::vector<fs::path>& sources) {
   return path.filename().string();
 }
 
+std::string counted(std::size_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
 bool matches(const std::string& pattern, const std::string& name) {
   return ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
 }
@@ -156,6 +161,14 @@ std::string full_name(const Panorama& panorama) {
   return panorama.variant.empty() ? panorama.name : panorama.name + "." + panorama.variant;
 }
 
+std::string variant_of(const Panorama& panorama) {
+  return panorama.variant.empty() ? std::string(kPlainVariant) : panorama.variant;
+}
+
+std::string variant_name(const Panorama& panorama) {
+  return panorama.name + "." + variant_of(panorama);
+}
+
 Coefficients radiance_of(const Panorama& panorama) {
   Coefficients radiance = panorama.coefficients;
   for (auto& channel : radiance.channels) {
@@ -171,15 +184,12 @@ Coefficients radiance_of(const Panorama& panorama) {
 }
 
 std::vector<std::size_t> find_panoramas(const Library& library, const std::string& pattern) {
-  // Tables have a name for the variant that has none here.
-  const std::string plain = "." + std::string(kPlainVariant);
   std::vector<std::size_t> exact = indices_of(library, [&](const Panorama& panorama) {
-    return full_name(panorama) == pattern ||
-           (panorama.variant.empty() && panorama.name + plain == pattern);
+    return panorama.name == pattern || variant_name(panorama) == pattern;
   });
   if (!exact.empty()) return exact;
   return indices_of(library, [&](const Panorama& panorama) {
-    return matches(pattern, panorama.name) || matches(pattern, full_name(panorama));
+    return matches(pattern, panorama.name) || matches(pattern, variant_name(panorama));
   });
 }
 
@@ -189,6 +199,19 @@ Frame frame_of(const Library& library) {
   const bool is_common = std::ranges::all_of(
       library.panoramas, [&](const Panorama& panorama) { return panorama.frame == first; });
   return is_common ? first : Frame{};
+}
+
+std::string count_text(const Library& library) {
+  std::map<std::pair<std::string, fs::path>, std::size_t> variants;  // of each name and file
+  for (const Panorama& panorama : library.panoramas) ++variants[{panorama.name, panorama.file}];
+  const std::size_t count = library.panoramas.size();
+  std::string text = counted(variants.size(), "panorama");
+  if (variants.size() == count) return text;
+  const std::size_t first = variants.begin()->second;
+  const bool is_even =
+      std::ranges::all_of(variants, [&](const auto& panorama) { return panorama.second == first; });
+  if (!is_even) return text + ", " + counted(count, "variant") + " in all";
+  return text + ", " + counted(first, "variant") + (variants.size() == 1 ? "" : " each");
 }
 
 Library part_of(const Library& library, std::span<const std::size_t> panoramas) {

@@ -104,16 +104,27 @@ struct LoadSettings {
 // What tables of `shoal run` call the variant that has no name here.
 inline constexpr std::string_view kPlainVariant = "plain";
 
-// "NAME" or "NAME.VARIANT".
+// "NAME" or "NAME.VARIANT": of pictures and their files.
 [[nodiscard]] std::string full_name(const Panorama& panorama);
 
-// The indices of the panoramas whose name or full name matches the shell pattern, in their order; a
-// text that is somebody's full name stands for that one alone.
+// "plain" where the panorama is as it was projected.
+[[nodiscard]] std::string variant_of(const Panorama& panorama);
+
+// "NAME.VARIANT", "NAME.plain" included: what chooses that one alone.
+[[nodiscard]] std::string variant_name(const Panorama& panorama);
+
+// The indices of the panoramas that a shell pattern chooses, in their order: by a name all variants
+// that it has, by a variant_name() that one. A text that is somebody's name is that name alone,
+// though it could be a pattern, too.
 [[nodiscard]] std::vector<std::size_t> find_panoramas(const Library& library,
                                                       const std::string& pattern);
 
 // The frame that all panoramas are told in; the native one where they are told in several.
 [[nodiscard]] Frame frame_of(const Library& library);
+
+// How many there are: "18 panoramas", "18 panoramas, 2 variants each", "18 panoramas, 20 variants
+// in all".
+[[nodiscard]] std::string count_text(const Library& library);
 
 // The library with these panoramas alone, in this order; what failed stays with it.
 [[nodiscard]] Library part_of(const Library& library, std::span<const std::size_t> panoramas);

@@ -304,8 +304,7 @@ bool tells_other_light(const Panorama& told, const Panorama& projected) {
 
 // What a manifest asked to be made of the pixels' light; a clamp took some of it away before.
 void take_change(const FactsByName& facts, Panorama& panorama) {
-  const auto fact = facts.find(
-      {panorama.name, panorama.variant.empty() ? std::string(kPlainVariant) : panorama.variant});
+  const auto fact = facts.find({panorama.name, variant_of(panorama)});
   panorama.change = fact != facts.end() ? fact->second.change : LightChange{};
   if (panorama.pixels && panorama.pixels->clamped_count > 0) panorama.change.is_whole = false;
 }

@@ -44,8 +44,11 @@ class Rendering(Commands):
         names = [f"shots/{name}.png" for name in ("p01", "p01.dark", "p02", "p02.dark")]
         self.assertEqual(done.out.splitlines(), names)
         self.assert_pictures(*names)
-        # A name is that one's alone.
-        self.assertEqual(self.render(0, "out", "--panorama", "p01", "-o", "n-{name}.png").out, "n-p01.png\n")
+        # A name has all variants; one of them is named with it.
+        for pattern, *names in (("p01", "p01", "p01.dark"), ("p01.*", "p01", "p01.dark"), ("p01.plain", "p01"),
+                                ("*plain", "p00", "p01", "p02"), ("*1.dark", "p01.dark")):
+            done = self.render(0, "out", "--panorama", pattern, "-o", "n-{name}.png")
+            self.assertEqual(done.out.splitlines(), [f"n-{name}.png" for name in names], pattern)
         done = self.render(2, "out", "-o", "one.png")
         self.assertIn("one file for 6 pictures", done.err)
         self.assertIn("-o DIR/", done.err)
@@ -86,13 +89,15 @@ class Rendering(Commands):
         done = self.render(0, "out", "--panorama", "p00", "--degree", "3", "-o", "a.png")
         self.assertEqual(done.err, "warning: --degree 3: p00 ends at degree 2; all that there is is shown\n")
         done = self.render(0, "out", "--degree", "3", "-o", "all/")
-        self.assertIn("3 panoramas end before it, such as p00 at 2", done.err)
+        self.assertIn("--degree 3 is beyond 3 panoramas, such as p00 at 2;", done.err)
 
     def test_what_cannot_be_shown_is_told(self):
         self.make_library(1)
         self.write("lib/bad.hdr", "no picture")
         done = self.render(0, "lib", "-o", "a.png")
         self.assertRegex(done.err, r"^warning: bad is left out: lib/bad\.hdr: ")
+        done = self.render(1, "lib", "--panorama", "bad", "-o", "b.png")
+        self.assertIn("error: bad: has failed: lib/bad.hdr", done.err)
         done = self.render(1, "lib/bad.hdr", "-o", "b.png")
         self.assertIn("all of them failed", done.err)
 
@@ -105,6 +110,9 @@ class Messages(Commands):
                 (2, ("out", "--frame", "opnexr", "-o", "a.png"), "openexr"),
                 (2, ("out", "--quantity", "radance", "-o", "a.png"), "radiance"),
                 (2, ("out", "--panorama", "q*", "-o", "a.png"), '"q*"', "p00, p01, p02"),
+                (2, ("out", "--panorama", "po1", "-o", "a.png"), 'did you mean "p01"?'),
+                (2, ("out", "--panorama", "p00.plane", "-o", "a.png"), 'did you mean "p00.plain"?'),
+                (2, ("out", "--panorama", "*p", "-o", "a.png"), 'did you mean "*p*"?'),
                 (2, ("out", "--scene", "compare", "--with", "p*", "-o", "x/"), "3 panoramas", "p00"),
                 (2, ("out", "--grid", "0x4", "-o", "a.png"), "--grid 0x4"),
                 (2, ("out", "-o", "a.jpg"), "a.jpg", ".png"),

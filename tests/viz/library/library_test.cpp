@@ -265,21 +265,50 @@ TEST_F(LibraryTest, OfAFolderHasItsPanoramas) {
 
 TEST(FindPanoramas, GoesByNamesAndVariants) {
   Library library;
-  for (const auto& [name, variant] :
-       {std::pair{"day/a[1]", ""}, {"day/b", ""}, {"day/b", "dark"}, {"night/c", ""}}) {
+  for (const auto& [name, variant] : {std::pair{"day/a[1]", ""},
+                                      {"day/b", ""},
+                                      {"day/b", "dark"},
+                                      {"night/c", ""},
+                                      {"v1.dark", ""},
+                                      {"v1.dark", "dark"}}) {
     library.panoramas.emplace_back().name = name;
     library.panoramas.back().variant = variant;
   }
-  EXPECT_THAT(find_panoramas(library, "*"), ElementsAre(0, 1, 2, 3));
-  EXPECT_THAT(find_panoramas(library, "day/*"), ElementsAre(0, 1, 2));
-  EXPECT_THAT(find_panoramas(library, "*.dark"), ElementsAre(2));
-  // A full name is that panorama's alone: not a pattern, nor its variants' name.
-  EXPECT_THAT(find_panoramas(library, "day/a[1]"), ElementsAre(0));
-  EXPECT_THAT(find_panoramas(library, "day/b"), ElementsAre(1));
-  EXPECT_THAT(find_panoramas(library, "day/b.dark"), ElementsAre(2));
-  EXPECT_THAT(find_panoramas(library, "day/b*"), ElementsAre(1, 2));
-  EXPECT_THAT(find_panoramas(library, "?ight/[a-c]"), ElementsAre(3));
-  EXPECT_TRUE(find_panoramas(library, "b").empty());
+  const auto found = [&](const char* pattern) { return find_panoramas(library, pattern); };
+  EXPECT_THAT(found("*"), ElementsAre(0, 1, 2, 3, 4, 5));
+  // A name stands for all its variants, as what it is like does.
+  EXPECT_THAT(found("day/b"), ElementsAre(1, 2));
+  EXPECT_THAT(found("day/*"), ElementsAre(0, 1, 2));
+  EXPECT_THAT(found("?ight/[a-c]"), ElementsAre(3));
+  // One of them is named with its variant, plain or not.
+  EXPECT_THAT(found("day/b.dark"), ElementsAre(2));
+  EXPECT_THAT(found("day/b.plain"), ElementsAre(1));
+  EXPECT_THAT(found("day/b.*"), ElementsAre(1, 2));
+  EXPECT_THAT(found("*plain"), ElementsAre(0, 1, 3, 4));
+  // Names may have dots, and what looks like a variant in them.
+  EXPECT_THAT(found("v1.dark"), ElementsAre(4, 5));
+  EXPECT_THAT(found("v1.dark.plain"), ElementsAre(4));
+  EXPECT_THAT(found("*.dark"), ElementsAre(2, 4, 5));
+  // A name is no pattern, though it looks like one.
+  EXPECT_THAT(found("day/a[1]"), ElementsAre(0));
+  EXPECT_THAT(found("day/a[1].plain"), ElementsAre(0));
+  for (const char* nobody : {"b", "plain", "night/c.dark", ""}) {
+    EXPECT_TRUE(found(nobody).empty()) << nobody;
+  }
+}
+
+TEST(CountText, TellsPanoramasAndTheirVariants) {
+  Library library;
+  const auto text_with = [&](const char* name, const char* variant) {
+    library.panoramas.emplace_back().name = name;
+    library.panoramas.back().variant = variant;
+    return count_text(library);
+  };
+  EXPECT_EQ(count_text(library), "0 panoramas");
+  EXPECT_EQ(text_with("a", ""), "1 panorama");
+  EXPECT_EQ(text_with("a", "dark"), "1 panorama, 2 variants");
+  EXPECT_EQ(text_with("b", ""), "2 panoramas, 3 variants in all");
+  EXPECT_EQ(text_with("b", "dark"), "2 panoramas, 2 variants each");
 }
 
 // What is wrong, where, and what to do.
