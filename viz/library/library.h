@@ -62,8 +62,8 @@ struct Panorama {
   LightChange change;  // what a variant, or the entry's exposure, rotation and so on, makes of the
                        // pixels' light
   Frame frame;         // that a table told the coefficients in
-  std::map<Quantity, Coefficients>
-      told;  // all that the table holds, as it stands there: in `frame`
+  // All that this table holds of it, as it stands there: in `frame`.
+  std::map<Quantity, Coefficients> told;
   std::vector<std::string> tags;
   std::vector<std::string> warnings;
 };

@@ -85,8 +85,8 @@ std::string pixels_data(const PixelFigures& pixels) {
 std::string entry_data(const IndexEntry& entry, std::size_t frame) {
   const Panorama& panorama = *entry.panorama;
   return fmt::format(
-      R"({{"name":{},"variant":{},"file":{},"quantity":{},"degree":{},"frame":{},"changed":{},"tags":{},)"
-      R"("warnings":{},"thumbnail":{},"ball":{},"exposure":{},"figures":{},"pixels":{}}})",
+      R"({{"name":{},"variant":{},"file":{},"quantity":{},"degree":{},"frame":{},"changed":{},)"
+      R"("tags":{},"warnings":{},"thumbnail":{},"ball":{},"exposure":{},"figures":{},"pixels":{}}})",
       script_quoted(entry.name), script_quoted(panorama.variant),
       script_quoted(panorama.file.filename().string()), script_quoted(name_of(panorama.quantity)),
       panorama.coefficients.degree, frame, !panorama.change.is_whole, strings(panorama.tags),
