@@ -11,13 +11,32 @@
 namespace shoal {
 namespace {
 
+std::string_view hint_for(int reason) {
+  switch (reason) {
+    case ENOSPC:
+    case EDQUOT:
+      return "free some space and run again; finished work is kept";
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return "check the permissions of the output folder, or name another one";
+    case ENOENT:  // although it is there, or was just made: /proc and the like
+      return "its folder takes no new files; name another one";
+    case ENOTDIR:
+      return "a part of the path is a file; name another folder";
+    case EISDIR:
+      return "there is a folder of that name; name another file";
+    case ENAMETOOLONG:
+      return "name a shorter path";
+    default:
+      return "";
+  }
+}
+
 Error write_error(const std::filesystem::path& path, std::string_view doing, int reason) {
-  std::string hint = reason == ENOSPC   ? "free some space and run again; finished work is kept"
-                     : reason == EACCES ? "check the permissions of the output folder"
-                                        : "";
   return Error{ErrorCode::write_failed,
                "cannot be " + std::string(doing) + ": " + std::strerror(reason), path.string(),
-               std::move(hint)};
+               std::string(hint_for(reason))};
 }
 
 // Makes the rename itself durable. Some file systems refuse to sync a folder; then there is

@@ -4,6 +4,8 @@
 
 #include <fstream>
 #include <sstream>
+#include <string>
+#include <utility>
 
 #include "support/temporary_folder.h"
 
@@ -61,13 +63,26 @@ TEST(AtomicFile, OverwritesInPlace) {
   EXPECT_EQ(content_of(folder / "x"), "01ab456789!");
 }
 
-TEST(AtomicFile, SaysWhichFileCannotBeWrittenAndWhy) {
+TEST(AtomicFile, SaysWhichFileCannotBeWrittenWhyAndWhatToDo) {
   const test::TemporaryFolder folder;
   ASSERT_TRUE(write_file_atomically(folder / "file", "x"));
-  const auto file = AtomicFile::create(folder / "file" / "below");
-  ASSERT_FALSE(file);
-  EXPECT_EQ(file.error().code, ErrorCode::write_failed);
-  EXPECT_EQ(file.error().text(), (folder / "file").string() + ": cannot be made: Not a directory");
+  ASSERT_TRUE(std::filesystem::create_directory(folder / "folder"));
+  const std::string file = (folder / "file").string();
+  const std::string taken = (folder / "folder").string();
+  const std::pair<std::string, std::string> refusals[] = {
+      {file + "/below", file + ": cannot be made: Not a directory (a part of the path is a file; "
+                               "name another folder)"},
+      {taken, taken + ": cannot be renamed into place: Is a directory (there is a folder of that "
+                      "name; name another file)"},
+      {"/proc/file",
+       "/proc/file: cannot be opened for writing: No such file or directory (its "
+       "folder takes no new files; name another one)"}};
+  for (const auto& [path, text] : refusals) {
+    const Status written = write_file_atomically(path, "x");
+    ASSERT_FALSE(written) << path;
+    EXPECT_EQ(written.error().code, ErrorCode::write_failed);
+    EXPECT_EQ(written.error().text(), text);
+  }
 }
 
 }  // namespace

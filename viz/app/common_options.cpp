@@ -73,7 +73,7 @@ Error nothing_like(const std::string& pattern, const Library& library) {
 
 // "640x480", each within [low, high].
 Result<std::pair<int, int>> parse_pair(const std::string& option, const std::string& text, int low,
-                                       int high) {
+                                       int high, const std::string& example) {
   std::pair<int, int> pair;
   const char* end = text.data() + text.size();
   const auto first = std::from_chars(text.data(), end, pair.first);
@@ -87,7 +87,15 @@ Result<std::pair<int, int>> parse_pair(const std::string& option, const std::str
   return Error{ErrorCode::usage,
                fmt::format("{} {} is not two numbers from {} to {} with an x between", option, text,
                            low, high),
-               "", ""};
+               "", "such as " + example};
+}
+
+Status check_exposure(double stops) {
+  if (std::abs(stops) <= kMaxStops) return {};  // not a number is not
+  return Error{
+      ErrorCode::usage,
+      fmt::format("--exposure {} is not from -{} to {} stops", stops, kMaxStops, kMaxStops), "",
+      "each stop doubles the light that is shown"};
 }
 
 Channel channel_of(const std::string& name) {
@@ -158,9 +166,8 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
       ->check(CLI::IsMember({"luminance", "red", "green", "blue"}));
   command.add_option("--colour", options.colour, "Lobes in the colours of their sign or the light")
       ->check(CLI::IsMember({"sign", "light"}));
-  command
-      .add_option("--exposure", options.exposure_stops, "Stops on top of the automatic exposure")
-      ->check(CLI::Range(-kMaxStops, kMaxStops));
+  command.add_option("--exposure", options.exposure_stops,
+                     "Stops on top of the automatic exposure");
   command.add_option("--size", options.size, "Width and height in pixels, 1280x720 by default");
   command.add_option("--grid", options.grid,
                      "Columns and rows of a contact sheet's page, such as 5x4; by default those "
@@ -185,7 +192,7 @@ Result<SceneChoice> understand(const SceneOptions& options, const std::optional<
   SceneChoice choice;
   SHOAL_ASSIGN_OR_RETURN(scene, parse_scene(options.scene));
   SHOAL_ASSIGN_OR_RETURN(quantity, parse_quantity(options.quantity));
-  SHOAL_ASSIGN_OR_RETURN(size, parse_pair("--size", options.size, kMinSide, kMaxSide));
+  SHOAL_ASSIGN_OR_RETURN(size, parse_pair("--size", options.size, kMinSide, kMaxSide, "1280x720"));
   choice.scene = scene;
   choice.size = {size.first, size.second};
   SceneSettings& settings = choice.settings;
@@ -197,9 +204,10 @@ Result<SceneChoice> understand(const SceneOptions& options, const std::optional<
   settings.quantity = quantity;
   settings.channel = channel_of(options.channel);
   settings.colour = options.colour == "light" ? LobeColour::light : LobeColour::sign;
+  SHOAL_RETURN_IF_ERROR(check_exposure(options.exposure_stops));
   settings.exposure_stops = options.exposure_stops;
   if (!options.grid.empty()) {
-    SHOAL_ASSIGN_OR_RETURN(grid, parse_pair("--grid", options.grid, 1, kMaxGrid));
+    SHOAL_ASSIGN_OR_RETURN(grid, parse_pair("--grid", options.grid, 1, kMaxGrid, "5x4"));
     settings.grid = Grid{grid.first, grid.second};
   }
   return choice;

@@ -56,7 +56,9 @@ int main(int argc, char** argv) {
         return shoal::viz::report_error(*unknown);
       }
     }
-    return app.exit(error) == 0 ? shoal::viz::kExitOk : shoal::viz::kExitUsage;
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help and --version
+    return shoal::viz::report_error(
+        {shoal::ErrorCode::usage, error.what(), "", "--help lists the options"});
   }
   return run(action);
 }

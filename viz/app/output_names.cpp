@@ -95,7 +95,7 @@ Result<std::vector<fs::path>> output_files(const std::string& output, OutputForm
     files.emplace_back(replaced(pattern, placeholder, below(name)));
     if (!taken.insert(files.back()).second) {
       return Error{ErrorCode::usage, "would be the file of two panoramas", files.back().string(),
-                   "--panorama selects one of them"};
+                   "name one of the sources alone, or choose with --panorama"};
     }
   }
   return files;

@@ -151,7 +151,9 @@ class Renderer {
       written_.push_back(shots[shot].file);
       return {};
     }
-    if (shots.size() == 1) return done;
+    // Where one cannot be written none can.
+    const bool is_last = shots.size() == 1 || done.error().code == ErrorCode::write_failed;
+    if (is_last) return done;
     report_error(done.error());
     ++failed_count_;
     return {};
@@ -186,6 +188,13 @@ int render(const RenderCommand& command) {
   if (!command.scene.with.empty() && choice->scene != SceneKind::compare) {
     return report_error({ErrorCode::usage, "--with is for the scene compare", "", "leave it out"});
   }
+  if (command.page != "all" && choice->scene != SceneKind::contact) {
+    return report_error({ErrorCode::usage, "--page is for the scene contact", "", "leave it out"});
+  }
+  if (command.output.empty()) {
+    return report_error({ErrorCode::usage, "-o is missing", "",
+                         "-o FILE.png names the picture, -o DIR/ a folder for one of each"});
+  }
   const auto format = output_format(command.output, command.format);
   if (!format) return report_error(format.error());
   if (*format != OutputFormat::png && choice->scene != SceneKind::lobes) {
@@ -211,11 +220,10 @@ void add_render_command(CLI::App& app, Action& action) {
   add_library_options(*command, options->library, Sources::optional);
   add_scene_options(*command, options->scene);
   command->add_option("--page", options->page, "contact: a page from 1, or all (the default)");
-  command
-      ->add_option("-o,--output", options->output,
-                   "FILE.png, or FILE.vtp, .gltf or .glb for a mesh of the lobes; DIR/, or {name} "
-                   "or {page} in the file's name, where there are several")
-      ->required();
+  command->add_option(
+      "-o,--output", options->output,
+      "FILE.png, or FILE.vtp, .gltf or .glb for a mesh of the lobes; DIR/, or {name} "
+      "or {page} in the file's name, where there are several");
   command->add_option("--format", options->format, "png, vtp, gltf or glb, where -o is a folder")
       ->check(CLI::IsMember({"png", "vtp", "gltf", "glb"}));
   command->add_option("--way", options->way, "auto, surfaceless or x")

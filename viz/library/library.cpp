@@ -32,6 +32,11 @@ Error nothing_in(const fs::path& folder) {
                folder.string(), "run `shoal run MANIFEST` first, and name its output folder"};
 }
 
+Error no_library(const fs::path& manifest) {
+  return Error{ErrorCode::usage, "is a manifest, not what a run made of it", manifest.string(),
+               "`shoal run` it, and name its output folder"};
+}
+
 bool is_database(const fs::path& file) {
   std::array<char, kSqliteMark.size()> bytes{};
   std::ifstream(file, std::ios::binary).read(bytes.data(), bytes.size());
@@ -65,6 +70,7 @@ class Loader {
     if (fs::is_directory(source, code)) return add_folder(source);
     if (is_database(source)) return add_store(source);
     const auto extension = source.extension();
+    if (extension == ".yaml" || extension == ".yml") return no_library(source);
     if (extension == ".csv" || extension == ".json" || extension == ".npy") {
       SHOAL_RETURN_IF_ERROR(project_pending());
       return add_table(source, library_);

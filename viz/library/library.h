@@ -88,7 +88,8 @@ struct LoadSettings {
 // `source` is an output folder of `shoal run` (its shoal.db is read), a store, a CSV or JSON table,
 // a panorama, or a folder or several of panoramas; panoramas are projected by the program `shoal`,
 // which lies beside shoal-viz or in PATH. Panoramas come in the order of the table or of the names.
-// Errors: not_found, unreadable, malformed, unsupported, each with what to do next.
+// Errors: not_found, unreadable, malformed, unsupported, usage (a manifest), each with what to do
+// next.
 [[nodiscard]] Result<Library> load_library(const std::vector<std::filesystem::path>& sources,
                                            const LoadSettings& settings = {});
 

@@ -23,10 +23,6 @@ constexpr std::size_t kMaxBytes = std::size_t{256} << 20;
 constexpr std::size_t kKeptEntries = 64;
 constexpr std::ptrdiff_t kReadAhead = 32;  // less than is kept
 
-Error no_picture(const fs::path& file, const std::string& why) {
-  return Error{ErrorCode::unreadable, why, file.string(), ""};
-}
-
 // What `shoal preview` says of one file: a line of JSON.
 Result<Pixels> take_line(const std::string& line, const fs::path& file) {
   const std::unique_ptr<Json::CharReader> reader(Json::CharReaderBuilder().newCharReader());
@@ -34,12 +30,12 @@ Result<Pixels> take_line(const std::string& line, const fs::path& file) {
   std::string complaint;
   if (!reader->parse(line.data(), line.data() + line.size(), &said, &complaint) ||
       !said.isObject()) {
-    return no_picture(file, "`shoal preview` said nothing of it");
+    return Error{ErrorCode::unreadable, "`shoal preview` said nothing of it", file.string(), ""};
   }
   if (said.isMember("error")) {
     const std::string why = said["error"].asString();
-    const std::string named = file.string() + ": ";
-    return no_picture(file, why.starts_with(named) ? why.substr(named.size()) : why);
+    const bool says_where = why.starts_with(file.string() + ":");  // or a row of it
+    return Error{ErrorCode::unreadable, why, says_where ? "" : file.string(), ""};
   }
   return read_exr(said["output"].asString());
 }

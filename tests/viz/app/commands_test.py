@@ -105,6 +105,7 @@ class Rendering(Commands):
 class Messages(Commands):
     def test_errors_are_kind(self):
         self.make_output()
+        (self.folder / "taken/p00.png").mkdir(parents=True)
         for status, arguments, *texts in (
                 (2, ("out", "--scene", "lobse", "-o", "a.png"), '"lobse"', 'did you mean "lobes"'),
                 (2, ("out", "--frame", "opnexr", "-o", "a.png"), "openexr"),
@@ -119,7 +120,15 @@ class Messages(Commands):
                 (2, ("out", "--format", "glb", "-o", "a.png"), "a.png", "--format"),
                 (1, ("nowhere", "-o", "a.png"), "nowhere", "run `shoal run MANIFEST` first"),
                 (1, ("lib/p00.hdr/", "-o", "a.png"), "p00.hdr"),
-                (1, ("out", "--panorama", "p00", "-o", "m.yaml/a.png"), "m.yaml")):
+                (2, ("out", "--panorama", "p00"), "-o is missing", "-o DIR/"),
+                (2, ("out", "--degree", "99", "-o", "a.png"), "--degree", "64", "--help"),
+                (2, ("out", "--exposure", "nan", "-o", "a.png"), "--exposure nan", "100"),
+                (2, ("out", "--page", "2", "-o", "a.png"), "--page", "contact"),
+                (2, ("m.yaml", "-o", "a.png"), "m.yaml", "manifest", "output folder"),
+                (1, ("out", "--panorama", "p00", "-o", "lib/p00.hdr/a.png"), "lib/p00.hdr", "is a file"),
+                (1, ("out", "--panorama", "p00", "-o", "taken/"), "taken/p00.png", "there is a folder of that name"),
+                (1, ("out", "--panorama", "p00", "-o", "/proc/a.png"), "/proc/a.png", "takes no new files"),
+                (1, ("out", "-o", "/proc/"), "/proc/p00.png")):  # and not each of them
             done = self.render(status, *arguments)
             self.assertEqual(done.out, "")
             self.assertRegex(done.err, r"^error: ")

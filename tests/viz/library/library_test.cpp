@@ -327,6 +327,8 @@ TEST_F(Refusal, OfWhatIsNotThere) {
   expect(folder / "nowhere", ErrorCode::not_found, "shoal run");
   std::filesystem::create_directory(folder / "empty");
   expect(folder / "empty", ErrorCode::not_found, "run `shoal run MANIFEST` first");
+  test::write_text(folder / "m.yaml", "shoal: 1\n");
+  expect(folder / "m.yaml", ErrorCode::usage, "name its output folder");
 }
 
 TEST_F(Refusal, OfStores) {

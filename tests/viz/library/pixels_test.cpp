@@ -16,6 +16,7 @@ using test::LibraryTest;
 using testing::Each;
 using testing::HasSubstr;
 using testing::SizeIs;
+using testing::StartsWith;
 
 void write_constant(const std::filesystem::path& path, float red, float green, float blue) {
   const float rgb[] = {red, green, blue};
@@ -44,6 +45,18 @@ TEST_F(LibraryTest, HasPreviewsInTheOrderAskedFor) {
   ASSERT_FALSE(previews[3]);
   EXPECT_THAT(previews[3].error().text(), HasSubstr("nowhere.exr"));
   EXPECT_TRUE(previews[4]);
+}
+
+// Of a file whose row is at fault the program names file and row, and these words are enough.
+TEST_F(LibraryTest, NamesAFileThatIsCutOffOnce) {
+  const auto file = folder / "cut.hdr";
+  test::write_picture(test::make_noisy_picture(32, 16, 1), MapFormat::hdr, file);
+  std::filesystem::resize_file(file, 1000);
+  const auto previews = load_previews({file}, 16);
+  ASSERT_FALSE(previews[0]);
+  const std::string why = previews[0].error().text();
+  EXPECT_THAT(why, StartsWith(file.string() + ":"));
+  EXPECT_EQ(why.find("cut.hdr"), why.rfind("cut.hdr")) << why;
 }
 
 TEST_F(LibraryTest, CachesPixels) {
