@@ -116,7 +116,9 @@ int main(int argc, char** argv) {
         return shoal::kExitUsage;
       }
     }
-    return app.exit(error) == 0 ? shoal::kExitOk : shoal::kExitUsage;
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help and --version
+    shoal::print_error({shoal::ErrorCode::usage, error.what(), "", "--help lists the options"});
+    return shoal::kExitUsage;
   }
   return run(action);
 }

@@ -68,7 +68,8 @@ Result<Pair> more_and_fewer(const SceneInput& input, const Coefficients& whole, 
   const Panorama& panorama = current_panorama(input);
   const int degree = input.settings.degree.value_or(whole.degree);
   if (degree >= whole.degree) {
-    return Error{ErrorCode::usage,
+    const bool has_file = !panorama.file.empty();
+    return Error{has_file ? ErrorCode::unreadable : ErrorCode::usage,
                  "there are no pixels to compare with: " + input.pixels->why_empty(input.current),
                  title_of(panorama),
                  "name a second panorama or variant, --with GLOB, or a --degree below " +
@@ -86,8 +87,9 @@ Result<Pair> more_and_fewer(const SceneInput& input, const Coefficients& whole, 
               "the left's"};
 }
 
-// Errors: usage, where there is nothing to compare with. A light that is turned is compared as its
-// pixels lie, turned back: pixels that were turned would not be its texels any more.
+// Errors: usage, where there is nothing to compare with; unreadable, where its file is what fails.
+// A light that is turned is compared as its pixels lie, turned back: pixels that were turned would
+// not be its texels any more.
 Result<Pair> pixels_and_sum(const SceneInput& input) {
   const Panorama& panorama = current_panorama(input);
   const Coefficients whole = radiance_of(panorama);

@@ -155,8 +155,7 @@ void add_cards(const SceneInput& input, const std::vector<std::size_t>& shown, S
 }
 
 std::string subject_of(const Library& library, const SceneSettings& settings) {
-  const std::size_t count = library.panoramas.size();
-  std::string subject = std::to_string(count) + (count == 1 ? " panorama" : " panoramas");
+  std::string subject = count_text(library);
   const int pages = contact_page_count(library, settings);
   if (pages > 1) {
     subject += ", page " + std::to_string(settings.page + 1) + " of " + std::to_string(pages);

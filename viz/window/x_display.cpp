@@ -14,7 +14,7 @@ Status check_display() {
   };
   const char* name = std::getenv("DISPLAY");
   if (name == nullptr || *name == '\0') {
-    return unsupported("there is no display (DISPLAY is not set)");
+    return unsupported("there is no display: DISPLAY is not set");
   }
   // The connection stays open: an X server whose last client leaves may start afresh, and refuses
   // in the meantime the connection that VTK is about to make.

@@ -119,7 +119,7 @@ TEST(Offscreen, SaysSoWhereTheDisplayDoesNotAnswer) {
   EXPECT_EQ(window.error().what, "the display :54321 does not answer");
   ::unsetenv("DISPLAY");
   EXPECT_EQ(make_offscreen_window({32, 32}, OffscreenWay::x_display).error().what,
-            "there is no display (DISPLAY is not set)");
+            "there is no display: DISPLAY is not set");
 }
 
 }  // namespace
