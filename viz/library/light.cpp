@@ -23,10 +23,14 @@ std::optional<double> dominance_of(const Coefficients& radiance) {
   return found ? found->directionality : 0.0;
 }
 
+double exposure_of_mean(const glm::dvec3& mean) {
+  const double brightness = luminance(mean);
+  if (!std::isfinite(brightness) || brightness <= 0.0) return 1.0;
+  return kMeanTone / std::max({brightness, 0.5 * mean.r, 0.5 * mean.g, 0.5 * mean.b});
+}
+
 double automatic_exposure(const Coefficients& radiance, double stops) {
-  const double mean = luminance(mean_of(radiance));
-  const double automatic = std::isfinite(mean) && mean > 0.0 ? kMeanTone / mean : 1.0;
-  return automatic * std::exp2(stops);
+  return exposure_of_mean(mean_of(radiance)) * std::exp2(stops);
 }
 
 double srgb_encoded(double linear) {

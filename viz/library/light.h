@@ -23,7 +23,11 @@ namespace shoal::viz {
 // holds its sun and lamps, and what is beside them lies well below it.
 inline constexpr double kMeanTone = 0.3;
 
-// The exposure that does so, times 2^stops; 2^stops where the mean is not positive.
+// The exposure that does so, or the lower one at which the mean of no channel is above twice that,
+// so that one colour alone is not burnt out; 1 where the mean luminance is not positive.
+[[nodiscard]] double exposure_of_mean(const glm::dvec3& mean);
+
+// The same of radiance, times 2^stops.
 [[nodiscard]] double automatic_exposure(const Coefficients& radiance, double stops = 0.0);
 
 // The sRGB curve (IEC 61966-2-1) of a linear value, clamped to 0..1.

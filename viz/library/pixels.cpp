@@ -20,8 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxBytes = std::size_t{256} << 20;
-constexpr std::size_t kKeptEntries = 64;
-constexpr std::ptrdiff_t kReadAhead = 32;  // less than is kept
+constexpr std::size_t kKeptEntries = 8;
+constexpr std::size_t kMostReadAhead = 32;  // and no more than half of all that is kept
 
 // What `shoal preview` says of one file: a line of JSON.
 Result<Pixels> take_line(const std::string& line, const fs::path& file) {
@@ -64,6 +64,11 @@ void preview_batch(const fs::path& shoal, std::span<const std::string> files, in
     std::getline(lines, line);
     previews.push_back(take_line(line, file));
   }
+}
+
+std::size_t read_ahead_of(int width) {
+  const std::size_t bytes = std::size_t{3} * sizeof(float) * width * (width / 2);
+  return std::clamp(kMaxBytes / 2 / bytes, std::size_t{1}, kMostReadAhead);
 }
 
 }  // namespace
@@ -135,7 +140,8 @@ const Pixels& PixelCache::get(std::size_t panorama, int width, Lying lying) {
   const Key in_file{panorama, width, Lying::as_in_file};
   if (!entries_.contains(in_file)) {
     const auto expected = std::ranges::find(expected_, panorama);
-    const auto ahead = std::min<std::ptrdiff_t>(kReadAhead, expected_.end() - expected);
+    const auto left = static_cast<std::size_t>(expected_.end() - expected);
+    const std::size_t ahead = std::min(left, read_ahead_of(width));
     const std::vector<std::size_t> together(expected, expected + ahead);
     prepare(together.empty() ? std::span(&panorama, 1) : std::span(together), width);
   }

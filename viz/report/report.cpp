@@ -104,8 +104,8 @@ std::string folder_of_names(const Library& library) {
 double exposure_of_pixels(const Panorama& panorama, double of_light) {
   if (panorama.change.is_whole || !panorama.pixels) return of_light;
   const auto& [r, g, b] = panorama.pixels->mean;
-  const double mean = luminance(glm::dvec3(r, g, b));
-  return mean > 0.0 ? kMeanTone / mean : of_light;
+  const glm::dvec3 mean(r, g, b);
+  return luminance(mean) > 0.0 ? exposure_of_mean(mean) : of_light;
 }
 
 // One report while it is written.

@@ -100,7 +100,8 @@ std::string describe(const Frame& frame) {
     return (axis.sign < 0 ? std::string(kMinus) : "+") + kNames[axis.axis];
   };
   return "frame" + names + ": centre " + axis_text(frame.center) + ", right " +
-         axis_text(frame.right) + ", up " + axis_text(frame.up);
+         axis_text(frame.right) + ", up " + axis_text(frame.up) +
+         (mirrors(frame) ? "" : ", a mirror image of the scene");
 }
 
 }  // namespace shoal::viz

@@ -29,7 +29,8 @@ void add_small_axes(vtkRenderer& view, double length);
 // brighter.
 void add_scale_sphere(vtkRenderer& view, const Frame& frame, double radius = 1.0);
 
-// "frame vtk, three, gltf: centre +x, right +z, up +y"; every tool whose frame it is.
+// "frame vtk, three, gltf: centre +x, right +z, up +y"; every tool whose frame it is, and whether
+// they see a mirror image of the scene.
 [[nodiscard]] std::string describe(const Frame& frame);
 
 }  // namespace shoal::viz

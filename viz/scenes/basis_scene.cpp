@@ -18,6 +18,10 @@ namespace {
 
 constexpr int kDefaultDegree = 4;  // nine by five cells, the shape of a wide window
 
+// The highest one whose shapes are seen at one scale: beyond it most are specks beside the zonal
+// one of the highest degree.
+constexpr int kMostAtOneScale = 8;
+
 // The camera's radius for lobes that reach 1 along the vertical, which it sees foreshortened.
 constexpr double kClose = 0.97;
 
@@ -30,6 +34,12 @@ std::vector<std::vector<double>> sample_basis(const Mesh& sphere, int degree) {
     basis.evaluate(glm::normalize(glm::dvec3(position)), samples.back());
   }
   return samples;
+}
+
+double largest_of(const std::vector<double>& values) {
+  double largest = 0.0;
+  for (const double value : values) largest = std::max(largest, std::abs(value));
+  return largest;
 }
 
 std::string order_text(int m) { return (m < 0 ? kMinus : "") + std::to_string(std::abs(m)); }
@@ -109,7 +119,12 @@ Status show_basis_scene(const SceneInput& input, Stage& stage) {
   stage.set_title("Real spherical harmonics",
                   "Y of degree l \u2264 " + std::to_string(degree) + " and order m = \u2212l to l");
   const LegendEntry entries[] = {{theme::kPositive, "Y > 0"}, {theme::kNegative, "Y < 0"}};
-  set_caption(stage, "radius |Y|, one scale for all; rows l, columns m", entries);
+  const bool has_one_scale = degree <= kMostAtOneScale;
+  set_caption(stage,
+              std::string("radius |Y|, ") +
+                  (has_one_scale ? "one scale for all" : "each at a scale of its own") +
+                  "; rows l, columns m",
+              entries);
 
   const Pyramid pyramid = lay_out(stage, degree);
   const Mesh sphere = sphere_mesh(degree <= 4 ? 48 : 32);
@@ -122,7 +137,8 @@ Status show_basis_scene(const SceneInput& input, Stage& stage) {
     for (int m = -l; m <= l; ++m) {
       for (std::size_t i = 0; i < values.size(); ++i)
         values[i] = samples[i][coefficient_index(l, m)];
-      const Mesh lobe = lobe_mesh(sphere, values, 1.0 / largest);
+      const Mesh lobe =
+          lobe_mesh(sphere, values, 1.0 / (has_one_scale ? largest : largest_of(values)));
       vtkRenderer& view = stage.add_view(pyramid.view(l, m));
       add_mesh(view, lobe, sign_colours(lobe), Shading::lit);
       camera.look(view, input.settings.frame, kClose);

@@ -2,7 +2,9 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/matrix.hpp>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "library/light.h"
@@ -17,7 +19,8 @@
 namespace shoal::viz {
 namespace {
 
-constexpr int kWidth = 512;
+constexpr int kWidth = 512;           // as it is shown
+constexpr int kMeasuredWidth = 2048;  // at most, of pixels that are measured
 
 struct Side {
   std::string title;
@@ -32,6 +35,8 @@ struct Pair {
   std::string note;  // behind the exposure in the caption
   std::string subject;
   std::string left_noun;  // whose RMS the difference's is told in
+  // What is measured, where it has more texels than what is shown.
+  std::optional<std::pair<Pixels, Pixels>> finer;
 };
 
 // The panorama's light as the settings want it shown.
@@ -59,7 +64,8 @@ Pair two_panoramas(const SceneInput& input) {
           std::min(left_exposure, right_exposure),
           left_exposure <= right_exposure ? ", the left's" : ", the right's",
           describe(input.settings.quantity) + " compared",
-          "the left's"};
+          "the left's",
+          {}};
 }
 
 // What is known of light without pixels is its coefficients; so fewer of them are compared with
@@ -84,7 +90,15 @@ Result<Pair> more_and_fewer(const SceneInput& input, const Coefficients& whole, 
               exposure,
               "",
               "more and fewer coefficients",
-              "the left's"};
+              "the left's",
+              {}};
+}
+
+// Where figures are not those of every texel.
+std::string note_of_size(const Panorama& panorama, const Pixels& measured) {
+  if (are_its_texels(panorama, measured, kMeasuredWidth)) return "";
+  return "; measured over " + std::to_string(measured.width) + " x " +
+         std::to_string(measured.height) + " texels";
 }
 
 // Errors: usage, where there is nothing to compare with; unreadable, where its file is what fails.
@@ -99,15 +113,25 @@ Result<Pair> pixels_and_sum(const SceneInput& input) {
   const Coefficients shown = truncate(whole, input.settings.degree.value_or(whole.degree));
   const glm::dmat3 turn = panorama.change.turn;
   std::string note = turn == glm::dmat3(1.0) ? "" : "; both turned back, as the file lies";
-  if (!panorama.change.is_whole) note = "; two lights: the second one is not of these pixels alone";
+  if (!panorama.change.is_whole) {
+    note = "; the pixels are those before light was added or taken out, and so is their difference";
+  }
   // A small panorama's pixels come as they are, not made larger.
-  return Pair{{"panorama: " + describe_pixels(panorama), original},
-              {"reconstruction: radiance to degree " + std::to_string(shown.degree),
-               synthesise(rotate(shown, glm::transpose(turn)), original.width, original.height)},
-              exposure,
-              note,
-              "original and reconstruction",
-              "the original's"};
+  const Pixels& fine = input.pixels->get(input.current, kMeasuredWidth, Lying::as_in_file);
+  const Coefficients lying = rotate(shown, glm::transpose(turn));
+  const auto sum_like = [&](const Pixels& pixels) {
+    return synthesise(lying, pixels.width, pixels.height);
+  };
+  Pair pair{
+      {"panorama: " + describe_pixels(panorama), original},
+      {"reconstruction: radiance to degree " + std::to_string(shown.degree), sum_like(original)},
+      exposure,
+      note_of_size(panorama, fine) + note,
+      "original and reconstruction",
+      "the original's",
+      {}};
+  if (fine.width > original.width) pair.finer = {fine, sum_like(fine)};
+  return pair;
 }
 
 // Below a line for its title.
@@ -132,28 +156,50 @@ glm::dvec2 middle_of(std::size_t texel, const Pixels& pixels) {
           (static_cast<double>(texel / pixels.width) + 0.5) / pixels.height};
 }
 
-std::string place_text(std::size_t texel, const Pixels& pixels) {
-  const glm::dvec2 middle = middle_of(texel, pixels);
+std::string place_text(const glm::dvec2& place) {
   char text[64];
-  std::snprintf(text, sizeof text, "%.0f°, %.0f°", 180.0 * middle.y, 360.0 * middle.x);
+  std::snprintf(text, sizeof text, "%.0f°, %.0f°", 180.0 * place.y, 360.0 * place.x);
   return text;
+}
+
+// The figures, and what there is to see of them.
+struct Measured {
+  Difference difference;
+  glm::dvec2 largest_at{0.0};  // as fractions of the picture
+  Picture picture;
+
+  [[nodiscard]] double largest() const { return difference.values[difference.largest_texel]; }
+};
+
+Measured measure(const Pair& pair, Channel channel) {
+  Difference shown = difference_of(pair.left.light, pair.right.light, channel);
+  if (!pair.finer) {
+    Picture picture = difference_picture(shown, pair.left.light);
+    const glm::dvec2 at = middle_of(shown.largest_texel, pair.left.light);
+    return {std::move(shown), at, std::move(picture)};
+  }
+  const auto& [left, right] = *pair.finer;
+  Difference finer = difference_of(left, right, channel);
+  shown.scale = finer.scale;
+  const glm::dvec2 at = middle_of(finer.largest_texel, left);
+  return {std::move(finer), at, difference_picture(shown, pair.left.light)};
 }
 
 // What the colours stand for, and the figures. Where there is no room for all, the bar's name goes,
 // which is the picture's.
-void add_key(const Pair& pair, const Difference& difference, const std::string& channel,
-             Stage& stage, const Rectangle& card) {
+void add_key(const Pair& pair, const Measured& measured, const std::string& channel, Stage& stage,
+             const Rectangle& card) {
+  const Difference& difference = measured.difference;
   const double line = stage.line_height(TextSize::label);
   stage.add_panel(card);
   const Rectangle inner = inset(card, 0.018, 0.02);
   std::vector<FigureRow> rows = {
       {"RMS over the sphere", text_of(difference.rms)},
       {"of " + pair.left_noun + " RMS", percent_of(difference.relative_rms)},
-      {"largest", text_of(difference.largest)},
+      {"largest", text_of(measured.largest())},
   };
   if (difference.largest > 0.0) {
-    rows.push_back(
-        {"there (square): theta, phi", place_text(difference.largest_texel, pair.left.light)});
+    rows.push_back({"there (square): theta, phi", place_text(measured.largest_at)});
   }
   add_figures(stage, inner, rows);
   const double room = inner.height() - figures_height(stage, rows);
@@ -177,15 +223,16 @@ std::string beyond_the_ends(const Difference& difference) {
 }  // namespace
 
 Status show_compare_scene(const SceneInput& input, Stage& stage) {
-  auto found = input.other ? Result<Pair>(two_panoramas(input)) : pixels_and_sum(input);
-  SHOAL_ASSIGN_OR_RETURN(pair, std::move(found));
+  const Result<Pair> found = input.other ? two_panoramas(input) : pixels_and_sum(input);
+  if (!found) return found.error();
+  const Pair& pair = *found;
   const std::string channel(name_of(input.settings.channel));
-  const Difference difference =
-      difference_of(pair.left.light, pair.right.light, input.settings.channel);
+  const Measured measured = measure(pair, input.settings.channel);
+  const Difference& difference = measured.difference;
   stage.set_title(title_of(current_panorama(input)), pair.subject);
   stage.set_caption("difference of " + channel + ": RMS " + text_of(difference.rms) + " (" +
                     percent_of(difference.relative_rms) + " of " + pair.left_noun + "), largest " +
-                    text_of(difference.largest) + beyond_the_ends(difference) + "; one exposure, " +
+                    text_of(measured.largest()) + beyond_the_ends(difference) + "; one exposure, " +
                     text_of(std::log2(pair.exposure)) + " stops" + pair.note);
   const double gap = 0.01;
   const double aspect = stage.aspect(stage.body());
@@ -196,15 +243,14 @@ Status show_compare_scene(const SceneInput& input, Stage& stage) {
   };
   add_side(pair.left.title, tone_mapped_picture(pair.left.light, pair.exposure), stage, cell(0));
   add_side(pair.right.title, tone_mapped_picture(pair.right.light, pair.exposure), stage, cell(1));
-  const Rectangle below = add_side("right minus left, " + channel,
-                                   difference_picture(difference, pair.left.light), stage, cell(2));
+  const Rectangle below =
+      add_side("right minus left, " + channel, measured.picture, stage, cell(2));
   if (difference.largest > 0.0) {
-    add_mark(stage, below, middle_of(difference.largest_texel, pair.left.light), 0.011,
-             theme::kBackground);
+    add_mark(stage, below, measured.largest_at, 0.011, theme::kBackground);
   }
   // A high window's cells are low, and a picture's height would not do for the figures.
   const Rectangle key = columns == 1 ? cell(3) : place_of_picture(stage, cell(3));
-  add_key(pair, difference, channel, stage, key);
+  add_key(pair, measured, channel, stage, key);
   return {};
 }
 

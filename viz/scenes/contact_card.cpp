@@ -32,12 +32,14 @@ Plan in_columns(const Box& inner, double gap, double line) {
   Plan plan;
   const double side = std::min(0.5 * (inner.height - gap), 0.4 * inner.width);
   const double column = inner.width - side - gap;
-  const double words = words_height(2, line);
-  const double height = std::clamp(0.5 * column, 0.0, std::max(0.0, inner.height - words));
+  const double least = words_height(2, line);
+  const double height = std::clamp(0.5 * column, 0.0, std::max(0.0, inner.height - least));
+  plan.lines = inner.height - height >= words_height(3, line) ? 3 : 2;
+  const double words = words_height(plan.lines, line);
   // What is left of the height goes around the thumbnail with its words, and around the balls.
   const double spare = 0.5 * (inner.height - height - words);
   plan.thumbnail = {inner.x, inner.y + std::max(0.0, spare), 2.0 * height, height};
-  plan.words = {inner.x, plan.thumbnail.y + height + 0.2 * line, column, 2.0 * line};
+  plan.words = {inner.x, plan.thumbnail.y + height + 0.2 * line, column, plan.lines * line};
   const double x = inner.x + inner.width - side;
   const double above = 0.5 * (inner.height - gap - 2.0 * side);
   plan.ball = {x, inner.y + above, side, side};
@@ -57,7 +59,9 @@ Plan in_a_row(const Box& inner, double gap, double line) {
   plan.thumbnail = {x, y, 2.0 * side, side};
   plan.ball = {x + 2.0 * side + gap, y, side, side};
   plan.lobe = {x + 3.0 * side + 2.0 * gap, y, side, side};
-  plan.words = {inner.x, y + side + 0.2 * line, inner.width, plan.lines * line};
+  const bool below_pictures = plan.lines > 1;  // else a name has all the width
+  plan.words = {below_pictures ? x : inner.x, y + side + 0.2 * line,
+                below_pictures ? used : inner.width, plan.lines * line};
   return plan;
 }
 

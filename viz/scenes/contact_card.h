@@ -14,9 +14,9 @@ struct ContactCard {
   int lines = 2;  // of words
 };
 
-// Of two ways the one with the larger pictures: the thumbnail over the words, ball and lobe above
-// one another beside them; or the three pictures in a row over the words, which are one line where
-// two would take half of the card.
+// Of two ways the one with the larger pictures: the thumbnail over the words, two lines or where
+// there is room three, ball and lobe above one another beside them; or the three pictures in a row
+// over the words, which are one line where two would take half of the card.
 [[nodiscard]] ContactCard lay_out_card(const Stage& stage, const Rectangle& cell);
 
 // The grid of at least `count` cells over the area whose cards have the largest pictures; of equal

@@ -42,13 +42,19 @@ int preview_width(const Stage& stage, const Rectangle& thumbnail) {
   return pixels <= 320.0 ? 256 : pixels <= 640.0 ? 512 : 1024;
 }
 
+// Whether pixels, where there are any, are not those of its light.
+bool has_other_light(const Panorama& panorama) {
+  const bool is_known = !panorama.file.empty() || !panorama.recipe.empty();
+  return is_known && !panorama.change.is_whole;
+}
+
 // The pixels, or where there are none what is known of them.
 void add_thumbnail(const SceneInput& input, std::size_t index, const Coefficients& radiance,
                    double exposure, Stage& stage, const Rectangle& place) {
   const Pixels& pixels = input.pixels->get(index, preview_width(stage, place));
   if (!pixels.empty()) {
     stage.add_picture(place, tone_mapped_picture(pixels, exposure));
-    if (!input.library->panoramas[index].change.is_whole)
+    if (has_other_light(input.library->panoramas[index]))
       add_note("other light", "other", stage, place);
     return;
   }
@@ -76,8 +82,13 @@ void add_words(const Panorama& panorama, const Coefficients& radiance, const Con
   };
   const std::string name = title_of(panorama);
   const std::string mean = mean_text(radiance);
-  stage.add_text(words.left, words.top - 0.9 * line, name,
-                 {.size = TextSize::small, .max_width = words.width(), .cut = TextCut::middle});
+  const bool in_two_lines = card.lines > 2 && !panorama.variant.empty() && !fits(name);
+  const TextStyle style{
+      .size = TextSize::small, .max_width = words.width(), .cut = TextCut::middle};
+  stage.add_text(words.left, words.top - 0.9 * line, in_two_lines ? panorama.name : name, style);
+  if (in_two_lines) {
+    stage.add_text(words.left, words.top - 1.9 * line, "(" + panorama.variant + ")", style);
+  }
   TextStyle figures{.size = TextSize::small, .colour = theme::kDimText};
   if (card.lines == 1) {
     figures.align = TextAlign::right;
@@ -87,8 +98,11 @@ void add_words(const Panorama& panorama, const Coefficients& radiance, const Con
     return;
   }
   const std::string both = mean + kBetween + directed_text(radiance);
-  if (!fits(mean)) return;
-  stage.add_text(words.left, words.top - 1.9 * line, fits(both) ? both : mean, figures);
+  const double second = words.top - 1.9 * line;
+  if (fits(mean)) {
+    stage.add_text(words.left, in_two_lines ? second - line : second, fits(both) ? both : mean,
+                   figures);
+  }
 }
 
 void add_lobe(const SceneInput& input, const Panorama& panorama, SharedCamera& camera, Stage& stage,
@@ -180,7 +194,7 @@ Status show_contact_scene(const SceneInput& input, Stage& stage) {
 
   stage.set_title(input.library->title, subject_of(*input.library, settings));
   const bool some_changed = std::ranges::any_of(
-      shown, [&](std::size_t i) { return !input.library->panoramas[i].change.is_whole; });
+      shown, [&](std::size_t i) { return has_other_light(input.library->panoramas[i]); });
   const bool is_dense = contact_cell_count(settings) > kCellsOfPage;
   const std::string lines[] = {
       "each at its own exposure: pixels, irradiance on a white ball, " +

@@ -109,7 +109,7 @@ void add_partial_sums(const SceneInput& input, const Coefficients& whole, Stage&
   const std::vector<PartialSum> sums =
       partial_sums(sphere, whole, input.settings.channel, lobes_within(stage, area));
   double largest = 0.0;
-  for (const PartialSum& sum : sums) largest = std::max(largest, sum.largest);
+  for (const PartialSum& sum : sums) largest = std::max(largest, own_unit(sphere, sum));
 
   const double line = stage.line_height(TextSize::label);
   const double row = 0.5 * (area.height() - line);
@@ -156,6 +156,12 @@ void add_energy_bars(const std::vector<double>& energies, Stage& stage, const Re
   add_energy_axis(stage, area);
   const int count = static_cast<int>(energies.size());
   const int label_step = 1 + (count - 1) / 24;
+  // All of them have their number, or none, which would look picked out.
+  const double cell_width = area.width() / count;
+  const bool has_numbers = total > 0.0 && std::ranges::all_of(energies, [&](double energy) {
+                             const std::string text = percent(energy / total);
+                             return 1.1 * stage.text_width(text, TextSize::small) <= cell_width;
+                           });
   for (int l = 0; l < count; ++l) {
     const Rectangle cell = grid_cell(area, count, 1, l, 0);
     const double half = std::min(0.3 * cell.width(), 0.03);
@@ -164,7 +170,7 @@ void add_energy_bars(const std::vector<double>& energies, Stage& stage, const Re
     stage.add_box({cell.center_x() - half, area.bottom, cell.center_x() + half, top}, theme::kBar);
     const std::string text = percent(part);
     const double half_text = 0.55 * stage.text_width(text, TextSize::small);
-    if (total > 0.0 && 2.0 * half_text <= cell.width()) {
+    if (has_numbers) {
       stage.add_box({cell.center_x() - half_text, top + 0.1 * line, cell.center_x() + half_text,
                      top + 1.1 * line},
                     theme::kBackground);

@@ -20,10 +20,10 @@
 namespace shoal::viz {
 namespace {
 
-constexpr int kReferenceWidth = 128;  // texels of the hemisphere integral: 128 x 64
+constexpr int kReferenceWidth = 1024;  // of the pixels that are summed, at most
 constexpr double kAlbedo = 0.8;
 constexpr double kSceneRadius = 1.32;
-constexpr double kLeastScale = 0.01;  // of the mean: the integral over coarse texels is off by less
+constexpr double kLeastScale = 0.01;  // of the mean: less is not to be looked at
 
 using Light = std::vector<std::vector<glm::dvec3>>;  // irradiance a vertex of each mesh, RGB
 
@@ -57,22 +57,36 @@ struct Comparison {
   std::string reference_is;  // the integral of what
   Light form;
   Light reference;       // empty without pixels
-  double mean = 0.0;     // luminance of the reference, over the ball's vertices
+  double mean = 0.0;     // luminance of the reference, over the ball's surface
   double rms = 0.0;      // of form - reference, likewise
   double largest = 0.0;  // |form - reference| of all vertices
 };
 
-// The ball, the first mesh, has normals of all directions, spread evenly.
-void measure(Comparison& comparison) {
-  const auto count = static_cast<double>(comparison.form.front().size());
+// The share of the surface around each vertex: a third of its triangles.
+std::vector<double> shares_of(const Mesh& mesh) {
+  std::vector<double> shares(mesh.positions.size(), 0.0);
+  double whole = 0.0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const double area = glm::length(
+        glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]));
+    for (const std::uint32_t vertex : {a, b, c}) shares[vertex] += area / 3.0;
+    whole += area;
+  }
+  for (double& share : shares) share /= whole;
+  return shares;
+}
+
+// The ball, the first mesh, has normals of all directions.
+void measure(const Mesh& ball, Comparison& comparison) {
+  const std::vector<double> shares = shares_of(ball);
   for (std::size_t mesh = 0; mesh < comparison.form.size(); ++mesh) {
     for (std::size_t i = 0; i < comparison.form[mesh].size(); ++i) {
       const double expected = luminance(comparison.reference[mesh][i]);
       const double error = luminance(comparison.form[mesh][i]) - expected;
       comparison.largest = std::max(comparison.largest, std::abs(error));
       if (mesh > 0) continue;
-      comparison.mean += expected / count;
-      comparison.rms += error * error / count;
+      comparison.mean += shares[i] * expected;
+      comparison.rms += shares[i] * error * error;
     }
   }
   comparison.rms = std::sqrt(comparison.rms);
@@ -103,8 +117,13 @@ std::string coefficients_of_degree(int degree) {
   return kNumbers[std::min(degree, 2)];
 }
 
-std::string describe_texels(const Panorama& panorama) {
-  return panorama.change == LightChange{} ? "every texel" : "every texel, changed as its light is";
+// Of a larger file the means are summed that its preview has.
+std::string describe_texels(const Panorama& panorama, const Pixels& pixels) {
+  const bool all = are_its_texels(panorama, pixels, kReferenceWidth);
+  const std::string texels =
+      all ? "every texel"
+          : std::to_string(pixels.width) + " x " + std::to_string(pixels.height) + " texels";
+  return panorama.change == LightChange{} ? texels : texels + ", changed as its light is";
 }
 
 using ColourOf = std::function<glm::vec3(std::size_t mesh, std::size_t vertex)>;
@@ -211,8 +230,8 @@ Status show_lit_scene(const SceneInput& input, Stage& stage) {
   if (missing.empty()) {
     const glm::dmat3 to_drawn = native_to_frame(settings.frame) * panorama.change.turn;
     lit.reference = light_on(meshes, TexelLight(pixels, to_drawn));
-    lit.reference_is = "integral over " + describe_texels(panorama);
-    measure(lit);
+    lit.reference_is = "integral over " + describe_texels(panorama, pixels);
+    measure(meshes.front(), lit);
   }
 
   stage.set_title(title_of(panorama), "white things in its light");

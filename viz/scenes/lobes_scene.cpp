@@ -18,6 +18,9 @@
 namespace shoal::viz {
 namespace {
 
+// A hair beyond the unit sphere, which is a constant's lobe: lines within a surface look torn.
+constexpr double kGridRadius = 1.005;
+
 std::string direction_text(const glm::vec3& direction) {
   const auto rounded = [](float part) { return std::round(100.0 * part) / 100.0 + 0.0; };  // no -0
   char text[64];
@@ -106,7 +109,7 @@ Status show_lobes_scene(const SceneInput& input, Stage& stage) {
 
   const auto [shape, side] = lay_out(stage);
   vtkRenderer& view = stage.add_view(shape);
-  add_scale_sphere(view, settings.frame);
+  add_scale_sphere(view, settings.frame, kGridRadius);
   add_axes(stage, view, 1.15, TextSize::label, std::make_shared<const Mesh>(lobe.mesh));
   add_mesh(view, lobe.mesh, lobe.colours, Shading::lit);
   aim_camera(view, settings.frame, 1.26);

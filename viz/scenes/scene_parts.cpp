@@ -21,6 +21,12 @@ std::string describe_pixels(const Panorama& panorama) {
          std::string(same ? "" : ", changed as its light is");
 }
 
+bool are_its_texels(const Panorama& panorama, const Pixels& pixels, int asked) {
+  if (panorama.file.empty()) return false;
+  const bool is_known = panorama.pixels.has_value();
+  return pixels.width < asked || (is_known && panorama.pixels->width == pixels.width);
+}
+
 Coefficients shown_coefficients(const Panorama& panorama, const SceneSettings& settings) {
   Coefficients coefficients = apply_quantity(radiance_of(panorama), settings.quantity);
   if (settings.degree) coefficients = truncate(std::move(coefficients), *settings.degree);

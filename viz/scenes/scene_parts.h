@@ -27,6 +27,9 @@ namespace shoal::viz {
 // how that was made of them, those that it began with.
 [[nodiscard]] std::string describe_pixels(const Panorama& panorama);
 
+// Whether these pixels, asked for at most `asked` wide, are the texels of its file one by one.
+[[nodiscard]] bool are_its_texels(const Panorama& panorama, const Pixels& pixels, int asked);
+
 // The coefficients of the settings' quantity to the settings' degree, in the settings' frame.
 [[nodiscard]] Coefficients shown_coefficients(const Panorama& panorama,
                                               const SceneSettings& settings);

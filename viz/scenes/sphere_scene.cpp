@@ -72,14 +72,21 @@ void add_ball_axes(Stage& stage, vtkRenderer& view) {
   }
 }
 
+bool lies_behind(const glm::vec3& direction, const Frame& frame) {
+  return glm::dot(direction, glm::vec3(viewer_direction(frame))) < 0.0f;
+}
+
 // Towards the viewer it is a dot in a ring. Behind the ball it is seen through it, as its ghost.
-void add_dominant_arrow(Stage& stage, vtkRenderer& view, const glm::vec3& direction) {
+void add_dominant_arrow(Stage& stage, vtkRenderer& view, const Look& look) {
+  const glm::vec3& direction = look.dominant;
   constexpr int kPieces = 48;
   constexpr float kRise = 0.987f;  // of the ring's middle; its radius is an eighth of the ball's
   constexpr float kRadius = 0.16f;
   constexpr double kGhost = 0.4;  // opacity
   add_arrow(view, direction, 1.32f * direction, theme::kAccent, 0.03);
-  add_arrow(stage.front_of(view), direction, 1.32f * direction, theme::kAccent, 0.03, kGhost);
+  if (lies_behind(direction, look.frame)) {
+    add_arrow(stage.front_of(view), direction, 1.32f * direction, theme::kAccent, 0.03, kGhost);
+  }
   const glm::vec3 some =
       std::abs(direction.z) < 0.9f ? glm::vec3(0.0f, 0.0f, 1.0f) : glm::vec3(1.0f, 0.0f, 0.0f);
   const glm::vec3 across = glm::normalize(glm::cross(direction, some));
@@ -140,14 +147,14 @@ void add_ball_view(const Ball& ball, const Look& look, SharedCamera& camera, Sta
   camera.look(view, look.frame, scene_radius(stage, places.round));
   add_ball(view, picture, look.frame);
   add_ball_axes(stage, view);
-  if (look.dominant != glm::vec3(0.0f)) add_dominant_arrow(stage, view, look.dominant);
+  if (look.dominant != glm::vec3(0.0f)) add_dominant_arrow(stage, view, look);
 }
 
 // For the caption.
 std::string place_of_arrow(const Look& look) {
   if (look.dominant == glm::vec3(0.0f)) return "; it has no such direction";
-  return glm::dot(look.dominant, glm::vec3(viewer_direction(look.frame))) < -0.5f
-             ? "; as the balls are first seen, behind them, and seen through them"
+  return lies_behind(look.dominant, look.frame)
+             ? "; it lies behind the balls, and shows through them"
              : "";
 }
 

@@ -92,6 +92,57 @@ TEST(TexelLight, OfOneTexelIsItsFluxTimesTheCosine) {
   }
 }
 
+// The sum over all texels, as it is defined.
+glm::dvec3 brute_force(const Pixels& pixels, const glm::dvec3& normal) {
+  glm::dvec3 sum(0.0);
+  for (int i = 0; i < pixels.height; ++i) {
+    const double theta = kPi * (i + 0.5) / pixels.height;
+    const double belt = std::cos(kPi * i / pixels.height) - std::cos(kPi * (i + 1) / pixels.height);
+    for (int j = 0; j < pixels.width; ++j) {
+      const double phi = 2.0 * kPi * (j + 0.5) / pixels.width;
+      const glm::dvec3 direction(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                                 std::cos(theta));
+      const double weight =
+          2.0 * kPi / pixels.width * belt * std::max(0.0, glm::dot(direction, normal));
+      const float* texel = pixels.at(i, j);
+      sum += weight * glm::dvec3(texel[0], texel[1], texel[2]);
+    }
+  }
+  return sum;
+}
+
+// Of a picture finer than the cells, even light of both signs: what the header says cells on the
+// horizon add, h^2/4 of pi times the largest radiance.
+TEST(TexelLight, OfCellsIsTheSumOverTheirTexels) {
+  constexpr double kCell = 2.0 * kPi / 256;
+  for (const double sign : {1.0, -1.0}) {
+    Pixels pixels{600, 300, std::vector<float>(3 * 600 * 300)};
+    for (std::size_t i = 0; i < pixels.rgb.size(); ++i) {
+      pixels.rgb[i] = static_cast<float>(sign * (0.75 + 0.25 * std::sin(0.001 * double(i))));
+    }
+    const TexelLight light(pixels, glm::dmat3(1.0));
+    shoal::test::RandomNumbers random(8);
+    for (int trial = 0; trial < 20; ++trial) {
+      const glm::dvec3 normal = random_direction(random);
+      const glm::dvec3 difference = light.irradiance(normal) - brute_force(pixels, normal);
+      for (int c = 0; c < 3; ++c) ASSERT_LT(std::abs(difference[c]), 0.25 * kCell * kCell * kPi);
+    }
+  }
+}
+
+// Light of one texel is the same however many share its cell, before and behind its horizon.
+TEST(TexelLight, OfOneOfManyTexelsIsItsFluxTimesTheCosine) {
+  Pixels pixels{1024, 512, std::vector<float>(3 * 1024 * 512, 0.0f)};
+  pixels.rgb[3 * (131 * 1024 + 770)] = 1e5f;
+  const TexelLight light(pixels, glm::dmat3(1.0));
+  shoal::test::RandomNumbers random(9);
+  for (int trial = 0; trial < 50; ++trial) {
+    const glm::dvec3 normal = random_direction(random);
+    const double expected = brute_force(pixels, normal).r;
+    ASSERT_NEAR(light.irradiance(normal).r, expected, 1e-12 * 1e5);
+  }
+}
+
 // Light of degree 2 is all that the nine coefficients hold, so both ways agree, in every frame.
 // Its radiance is below 3 here.
 TEST(TexelLight, AgreesWithTheFormWhereNothingIsLeftOut) {
