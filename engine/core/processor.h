@@ -2,7 +2,13 @@
 #pragma once
 
 #if defined(__x86_64__) && __has_include(<sys/platform/x86.h>)
+#ifdef __clang__
+#define _Bool bool  // glibc 2.36 says _Bool there, which Clang does not know in C++
 #include <sys/platform/x86.h>
+#undef _Bool
+#else
+#include <sys/platform/x86.h>
+#endif
 #endif
 
 // SHOAL_PROCESSOR_HAS("avx2", AVX2): whether the processor has an instruction set, and the

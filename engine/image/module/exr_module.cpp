@@ -306,6 +306,6 @@ constexpr Module kModule = {kInterfaceVersion, open_picture, read_lines, close_p
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) const Module* shoal_exr_module() {
+extern "C" __attribute__((visibility("default"))) const void* shoal_exr_module() {
   return &kModule;
 }

@@ -214,6 +214,6 @@ constexpr Module kModule = {kInterfaceVersion, guarded_open, guarded_read, close
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) const Module* shoal_oiio_module() {
+extern "C" __attribute__((visibility("default"))) const void* shoal_oiio_module() {
   return &kModule;
 }
