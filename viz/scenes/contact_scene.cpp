@@ -22,7 +22,8 @@ namespace {
 constexpr int kSumWidth = 256;  // of sums of the basis: two texels a half wave of degree 64
 constexpr const char* kBetween = " · ";  // figures, on cards and in the caption
 constexpr int kLobeRings = 24;
-constexpr int kBallDegree = 4;  // beyond it the clamped cosine leaves a few thousandths
+constexpr double kAxisLength = 0.97;  // its tip within the lobe that reaches 1 along it
+constexpr int kBallDegree = 4;        // beyond it the clamped cosine leaves a few thousandths
 
 // In the lower left corner of a picture; the brief one where there is room for no more.
 void add_note(const std::string& full, const std::string& brief, Stage& stage,
@@ -110,7 +111,7 @@ void add_lobe(const SceneInput& input, const Panorama& panorama, SharedCamera& c
   vtkRenderer& view = stage.add_view(place);
   camera.look(view, input.settings.frame, 1.0);
   const Lobe lobe = make_lobe(panorama, input.settings, kLobeRings);
-  add_small_axes(view, 1.0);
+  add_small_axes(view, kAxisLength);
   add_mesh(view, lobe.mesh, lobe.colours, Shading::lit);
 }
 
