@@ -127,13 +127,26 @@ void add_library_options(CLI::App& command, LibraryOptions& options, Sources sou
                   "Highest degree that is shown; of panoramas that are projected for it, 2 by "
                   "default")
       ->check(CLI::Range(0, kMaxDegree));
+  command.add_option("--table-frame", options.table_frame,
+                     "Frame of CSV tables that nothing beside them tells, as in --frame; native by "
+                     "default");
 }
 
 Result<Library> load(const LibraryOptions& options) {
   LoadSettings settings;
   settings.degree = options.degree;
+  if (!options.table_frame.empty()) {
+    SHOAL_ASSIGN_OR_RETURN(frame, parse_frame(options.table_frame));
+    settings.table_frame = frame;
+  }
   const std::vector<std::filesystem::path> sources(options.sources.begin(), options.sources.end());
   SHOAL_ASSIGN_OR_RETURN(library, load_library(sources, settings));
+  if (options.table_frame.empty()) {
+    print_frameless(library);
+  } else if (library.frameless.empty()) {
+    return Error{ErrorCode::usage, "--table-frame has no effect", "",
+                 "all that is looked at tells its frame; --frame names the one that is drawn"};
+  }
   print_failed(library);
   if (options.degree) {
     print_lesser_degrees(part_of(library, find_panoramas(library, options.panorama)),

@@ -19,13 +19,14 @@ struct LibraryOptions {
   std::vector<std::string> sources;
   std::string panorama = "*";
   std::optional<int> degree;
+  std::string table_frame;
 };
 
 enum class Sources { needed, optional };
 void add_library_options(CLI::App& command, LibraryOptions& options, Sources sources);
 
 // The library, of which no more than the panoramas that are left out has been told. Errors: those
-// of load_library(); not_found, where it has no panorama.
+// of load_library(); usage; not_found, where it has no panorama.
 [[nodiscard]] Result<Library> load(const LibraryOptions& options);
 
 // The panoramas that a pattern matches. Errors: usage, with the names that there are; not_found, of

@@ -37,6 +37,15 @@ void print_failed(const Library& library) {
   }
 }
 
+void print_frameless(const Library& library) {
+  for (const auto& table : library.frameless) {
+    print_message(Style::yellow, "warning:",
+                  table.string() +
+                      ": a CSV table does not tell its frame; it is taken for native "
+                      "(--table-frame names another, and a JSON table tells it)");
+  }
+}
+
 void print_lesser_degrees(const Library& library, int degree) {
   const auto is_lesser = [&](const Panorama& panorama) {
     return panorama.coefficients.degree < degree;

@@ -19,6 +19,9 @@ void tell(const std::string& what);
 // A line for each panorama that the library lacks, the first few of many.
 void print_failed(const Library& library);
 
+// A line for each table that is taken for native.
+void print_frameless(const Library& library);
+
 // A line where the library has panoramas of a degree below the one that was asked for.
 void print_lesser_degrees(const Library& library, int degree);
 

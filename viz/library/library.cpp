@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -53,10 +54,36 @@ void append(Library more, Library& library) {
   std::ranges::move(more.failed, std::back_inserter(library.failed));
 }
 
-Status add_table(const fs::path& table, Library& library) {
-  SHOAL_ASSIGN_OR_RETURN(records, read_table(table));
-  append({"", panoramas_of(std::move(records)), {}}, library);
-  return {};
+// What the store or the JSON table beside a run's CSV table tells; nothing where there is none that
+// can be read.
+std::vector<Panorama> told_beside(const fs::path& csv) {
+  if (csv.filename() != kCsvTableName) return {};
+  const fs::path store = csv.parent_path() / kStoreName;
+  if (is_there(store)) {
+    auto library = load_store(store);
+    return library ? std::move(library->panoramas) : std::vector<Panorama>();
+  }
+  auto records = read_table(csv.parent_path() / kJsonTableName);
+  return records ? panoramas_of(std::move(*records)) : std::vector<Panorama>();
+}
+
+// Gives the records of a CSV table, which does not tell them, their frames. Returns whether all of
+// these are told beside it.
+bool take_frames(const fs::path& csv, const Frame& otherwise,
+                 std::vector<CoefficientRecord>& records) {
+  std::map<std::pair<std::string, std::string>, Frame> frames;
+  for (const Panorama& panorama : told_beside(csv)) {
+    frames[{panorama.name, variant_of(panorama)}] = panorama.frame;
+  }
+  bool are_told = true;
+  for (CoefficientRecord& record : records) {
+    const std::string variant =
+        record.variant.empty() ? std::string(kPlainVariant) : record.variant;
+    const auto frame = frames.find({record.panorama, variant});
+    record.frame = frame != frames.end() ? frame->second : otherwise;
+    are_told &= frame != frames.end();
+  }
+  return are_told;
 }
 
 // Sources one after another; panorama files that follow one another are projected together.
@@ -72,8 +99,7 @@ class Loader {
     const auto extension = source.extension();
     if (extension == ".yaml" || extension == ".yml") return no_library(source);
     if (extension == ".csv" || extension == ".json" || extension == ".npy") {
-      SHOAL_RETURN_IF_ERROR(project_pending());
-      return add_table(source, library_);
+      return add_table(source);
     }
     pending_.push_back(source);
     return {};
@@ -92,12 +118,20 @@ class Loader {
     return {};
   }
 
+  Status add_table(const fs::path& table) {
+    SHOAL_RETURN_IF_ERROR(project_pending());
+    SHOAL_ASSIGN_OR_RETURN(records, read_table(table));
+    if (table.extension() == ".csv" && !take_frames(table, settings_.table_frame, records)) {
+      library_.frameless.push_back(table);
+    }
+    append({"", panoramas_of(std::move(records)), {}, {}}, library_);
+    return {};
+  }
+
   Status add_folder(const fs::path& folder) {
     if (is_there(folder / kStoreName)) return add_store(folder / kStoreName);
-    for (const char* name : {"coefficients.json", "coefficients.csv"}) {
-      if (!is_there(folder / name)) continue;
-      SHOAL_RETURN_IF_ERROR(project_pending());
-      return add_table(folder / name, library_);
+    for (const std::string_view name : {kJsonTableName, kCsvTableName}) {
+      if (is_there(folder / name)) return add_table(folder / name);
     }
     SHOAL_ASSIGN_OR_RETURN(pictures, pictures_below(folder));
     if (pictures.empty()) return nothing_in(folder);

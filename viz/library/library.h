@@ -79,15 +79,18 @@ struct Library {
   std::string title;  // of a report: the folder's or the table's name
   std::vector<Panorama> panoramas;
   std::vector<FailedPanorama> failed;
+  std::vector<std::filesystem::path> frameless;  // CSV tables whose frames nothing tells
 };
 
 struct LoadSettings {
   std::optional<int> degree;  // of panoramas that are projected now; 2 where it is not given
+  Frame table_frame;          // of CSV tables whose frames nothing tells
 };
 
 // `source` is an output folder of `shoal run` (its shoal.db is read), a store, a CSV or JSON table,
 // a panorama, or a folder or several of panoramas; panoramas are projected by the program `shoal`,
 // which lies beside shoal-viz or in PATH. Panoramas come in the order of the table or of the names.
+// The frames of a run's coefficients.csv are told by the store beside it, or by coefficients.json.
 // Errors: not_found, unreadable, malformed, unsupported, usage (a manifest), each with what to do
 // next.
 [[nodiscard]] Result<Library> load_library(const std::vector<std::filesystem::path>& sources,

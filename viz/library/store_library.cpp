@@ -274,9 +274,9 @@ Result<FactsByName> facts_in(const std::filesystem::path& store, sqlite3* databa
 Result<std::vector<CoefficientRecord>> table_beside(const std::filesystem::path& store,
                                                     const FactsByName& facts) {
   std::error_code code;
-  const auto json = store.parent_path() / "coefficients.json";
+  const auto json = store.parent_path() / kJsonTableName;
   if (std::filesystem::exists(json, code)) return read_table(json);
-  const auto csv = store.parent_path() / "coefficients.csv";
+  const auto csv = store.parent_path() / kCsvTableName;
   if (!std::filesystem::exists(csv, code)) return std::vector<CoefficientRecord>();
   SHOAL_ASSIGN_OR_RETURN(records, read_table(csv));
   for (CoefficientRecord& record : records) {

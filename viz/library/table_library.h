@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 #include <vector>
 
 #include "core/result.h"
@@ -10,8 +11,12 @@
 
 namespace shoal::viz {
 
-// All records of a CSV or JSON table, as they stand there. CSV does not tell a frame, and what it
-// holds is taken for native. Errors: not_found, unreadable, malformed, unsupported (npy).
+// What shoal calls the tables in an output folder.
+inline constexpr std::string_view kJsonTableName = "coefficients.json";
+inline constexpr std::string_view kCsvTableName = "coefficients.csv";
+
+// All records of a CSV or JSON table, as they stand there. CSV does not tell a frame: its records
+// say native. Errors: not_found, unreadable, malformed, unsupported (npy).
 [[nodiscard]] Result<std::vector<CoefficientRecord>> read_table(const std::filesystem::path& path);
 
 // One panorama for each panorama and variant of the records, in the order in which these come

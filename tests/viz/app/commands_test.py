@@ -102,6 +102,25 @@ class Rendering(Commands):
         self.assertIn("all of them failed", done.err)
 
 
+    def test_the_frame_of_a_csv_table(self):
+        """The store beside it tells its frame, --table-frame that of a table elsewhere: the picture is the same, to the
+        bit, and another one where that is taken for native."""
+        self.make_output("defaults: {frame: openexr}\ntables: [csv, json]\n")
+        (self.folder / "out/coefficients.csv").rename(self.folder / "coefficients.csv")
+        def picture(said, *arguments):
+            done = self.render(0, *arguments, "--panorama", "p00", "--scene", "sphere", "-o", "a.png")
+            self.assertEqual(done.err, said)
+            return (self.folder / "a.png").read_bytes()
+        wish = picture("", "out/coefficients.json")
+        self.assertEqual(picture("", "coefficients.csv", "--table-frame", "openexr"), wish)
+        native = picture("warning: coefficients.csv: a CSV table does not tell its frame; it is taken for native "
+                         "(--table-frame names another, and a JSON table tells it)\n", "coefficients.csv")
+        self.assertNotEqual(native, wish)
+        self.assertEqual(picture("", "coefficients.csv", "--table-frame", "native"), native)
+        (self.folder / "coefficients.csv").rename(self.folder / "out/coefficients.csv")
+        self.assertEqual(picture("", "out/coefficients.csv"), wish)
+
+
 class Messages(Commands):
     def test_errors_are_kind(self):
         self.make_output()
@@ -109,6 +128,8 @@ class Messages(Commands):
         for status, arguments, *texts in (
                 (2, ("out", "--scene", "lobse", "-o", "a.png"), '"lobse"', 'did you mean "lobes"'),
                 (2, ("out", "--frame", "opnexr", "-o", "a.png"), "openexr"),
+                (2, ("out", "--table-frame", "opnexr", "-o", "a.png"), "openexr"),
+                (2, ("out", "--table-frame", "openexr", "-o", "a.png"), "--table-frame", "tells its frame", "--frame"),
                 (2, ("out", "--quantity", "radance", "-o", "a.png"), "radiance"),
                 (2, ("out", "--panorama", "q*", "-o", "a.png"), '"q*"', "p00, p01, p02"),
                 (2, ("out", "--panorama", "po1", "-o", "a.png"), 'did you mean "p01"?'),

@@ -143,6 +143,56 @@ TEST_F(LibraryTest, ShowsTheLightThatTheManifestAskedFor) {
   EXPECT_THAT(find_panoramas(library, "raw.plain"), ElementsAre(0));
 }
 
+// CSV rows do not tell their frame. What lies beside a run's table does, so the light is that of
+// the JSON table, which tells it itself; nothing but `otherwise` tells it where the table lies
+// alone.
+TEST_F(LibraryTest, TakesTheFramesOfCsvFromWhatLiesBesideIt) {
+  namespace fs = std::filesystem;
+  const auto out = run_library(
+      "tables: [csv, json]\nvariants: {plain: {}, turned: {frame: openexr}, y_up: {frame: "
+      "'-z,+x,+y'}}\n");
+  const fs::path csv = out / "coefficients.csv";
+  const Library told = loaded({out / "coefficients.json"});
+  const auto expect_told = [&](const Library& library) {
+    ASSERT_EQ(names_of(library), names_of(told));
+    for (std::size_t i = 0; i < told.panoramas.size(); ++i) {
+      EXPECT_EQ(library.panoramas[i].frame, told.panoramas[i].frame);
+      EXPECT_EQ(library.panoramas[i].coefficients, told.panoramas[i].coefficients);
+    }
+    EXPECT_TRUE(library.frameless.empty());
+  };
+  EXPECT_EQ(told.panoramas[1].frame, *parse_frame("openexr"));
+  expect_told(told);
+  expect_told(loaded({csv}));  // by the store
+  fs::rename(out / "shoal.db", folder / "shoal.db");
+  expect_told(loaded({csv}));  // by the JSON table
+  // A table of another name is not the run's.
+  fs::create_directory(folder / "alone");
+  fs::copy_file(csv, out / "mine.csv");
+  fs::copy_file(csv, folder / "alone" / "coefficients.csv");
+  for (const fs::path& lone : {out / "mine.csv", folder / "alone" / "coefficients.csv"}) {
+    const Library native = loaded({lone});
+    EXPECT_THAT(native.frameless, ElementsAre(lone));
+    EXPECT_EQ(native.panoramas[1].frame, Frame{});
+    LoadSettings settings;
+    settings.table_frame = *parse_frame("openexr");
+    const auto named = load_library({lone}, settings);
+    ASSERT_TRUE(named);
+    EXPECT_EQ(named->panoramas[1].coefficients, told.panoramas[1].coefficients);
+    EXPECT_EQ(named->panoramas[1].frame, told.panoramas[1].frame);
+  }
+}
+
+// Of panoramas that the store beside a table does not know nothing tells the frame.
+TEST_F(LibraryTest, TakesNoFramesFromAnotherRunsStore) {
+  const auto out = run_library("defaults: {frame: openexr}\n");
+  std::string table = "panorama,variant,quantity,l,m,r,g,b\nstranger,plain,radiance,0,0,1,1,1\n";
+  test::write_text(out / "coefficients.csv", table);
+  EXPECT_EQ(loaded({out / "coefficients.csv"}).frameless.size(), 1U);
+  test::write_text(out / "shoal.db", "no store");
+  EXPECT_EQ(loaded({out / "coefficients.csv"}).frameless.size(), 1U);
+}
+
 TEST_F(LibraryTest, HasTheManifestsTags) {
   const auto out = run_library("variants: {plain: {}, dark: {exposure: -2}}\n");
   const Library library = loaded({out});
