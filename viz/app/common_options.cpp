@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "app/messages.h"
+#include "app/scene_options.h"
 #include "core/diagnostic.h"
 
 namespace shoal::viz {
@@ -172,22 +173,31 @@ Result<Library> load_selected(const LibraryOptions& options) {
 void add_scene_options(CLI::App& command, SceneOptions& options) {
   command.add_option("--scene", options.scene, scene_names() + "; lobes by default");
   command.add_option("--frame", options.frame,
-                     "Frame whose axes are drawn: a name, or where the panorama's centre, right "
-                     "and up point, such as +z,-x,+y; that of the library's tables by default");
-  command.add_option("--quantity", options.quantity, "radiance, irradiance or irradiance-over-pi");
-  command.add_option("--channel", options.channel, "luminance, red, green or blue")
+                     scene_help("--frame",
+                                "Frame whose axes are drawn: a name, or where the panorama's "
+                                "centre, right and up point, such as +z,-x,+y; that of the "
+                                "library's tables by default"));
+  command.add_option("--quantity", options.quantity,
+                     scene_help("--quantity", "radiance, irradiance or irradiance-over-pi"));
+  command
+      .add_option("--channel", options.channel,
+                  scene_help("--channel", "luminance, red, green or blue"))
       ->check(CLI::IsMember({"luminance", "red", "green", "blue"}));
-  command.add_option("--colour", options.colour, "Lobes in the colours of their sign or the light")
+  command
+      .add_option("--colour", options.colour,
+                  scene_help("--colour", "Lobes in the colours of their sign or the light"))
       ->check(CLI::IsMember({"sign", "light"}));
   command.add_option("--exposure", options.exposure_stops,
-                     "Stops on top of the automatic exposure");
+                     scene_help("--exposure", "Stops on top of the automatic exposure"));
   command.add_option("--size", options.size, "Width and height in pixels, 1280x720 by default");
   command.add_option("--grid", options.grid,
-                     "Columns and rows of a contact sheet's page, such as 5x4; by default those "
-                     "that suit the library, 20 panoramas a page at most");
+                     scene_help("--grid",
+                                "Columns and rows of a page, such as 5x4; by default those that "
+                                "suit the library, 20 panoramas a page at most"));
   command.add_option("--with", options.with,
-                     "compare: the panorama to compare with, as in --panorama; NAME.VARIANT where "
-                     "it has several variants");
+                     scene_help("--with",
+                                "The panorama to compare with, as in --panorama; NAME.VARIANT "
+                                "where it has several variants"));
 }
 
 Result<std::optional<std::size_t>> select_other(const Library& library, const std::string& with) {

@@ -9,6 +9,7 @@
 #include "app/common_options.h"
 #include "app/messages.h"
 #include "app/output_names.h"
+#include "app/scene_options.h"
 #include "library/pixels.h"
 #include "scenes/lobe_export.h"
 #include "scenes/scene.h"
@@ -182,14 +183,11 @@ Result<Library> library_for(const RenderCommand& command, SceneKind scene) {
                "name an output folder of `shoal run`, a table or panoramas"};
 }
 
-int render(const RenderCommand& command) {
+int render(const CLI::App& app, const RenderCommand& command) {
   auto choice = understand(command.scene, command.library.degree);
   if (!choice) return report_error(choice.error());
-  if (!command.scene.with.empty() && choice->scene != SceneKind::compare) {
-    return report_error({ErrorCode::usage, "--with is for the scene compare", "", "leave it out"});
-  }
-  if (command.page != "all" && choice->scene != SceneKind::contact) {
-    return report_error({ErrorCode::usage, "--page is for the scene contact", "", "leave it out"});
+  if (const Status effect = expect_effect(app, choice->scene); !effect) {
+    return report_error(effect.error());
   }
   if (command.output.empty()) {
     return report_error({ErrorCode::usage, "-o is missing", "",
@@ -219,7 +217,8 @@ void add_render_command(CLI::App& app, Action& action) {
   auto options = std::make_shared<RenderCommand>();
   add_library_options(*command, options->library, Sources::optional);
   add_scene_options(*command, options->scene);
-  command->add_option("--page", options->page, "contact: a page from 1, or all (the default)");
+  command->add_option("--page", options->page,
+                      scene_help("--page", "A page from 1, or all (the default)"));
   command->add_option(
       "-o,--output", options->output,
       "FILE.png, or FILE.vtp, .gltf or .glb for a mesh of the lobes; DIR/, or {name} "
@@ -229,7 +228,9 @@ void add_render_command(CLI::App& app, Action& action) {
   command->add_option("--way", options->way, "auto, surfaceless or x")
       ->check(CLI::IsMember({"auto", "surfaceless", "x"}))
       ->group("");  // for tests
-  command->callback([&action, options] { action = [options] { return render(*options); }; });
+  command->callback([&action, command, options] {
+    action = [command, options] { return render(*command, *options); };
+  });
 }
 
 }  // namespace shoal::viz

@@ -181,6 +181,41 @@ class Messages(Commands):
             self.assertNotIn("--way", done.out)
 
 
+class Effects(Commands):
+    SCENES = ("basis", "lobes", "sphere", "degrees", "lit", "compare", "contact")
+    OPTIONS = (("--panorama", "p01"), ("--frame", "openexr"), ("--quantity", "irradiance"), ("--channel", "blue"),
+               ("--colour", "light"), ("--exposure", "2"), ("--grid", "2x1"), ("--page", "2"),
+               ("--with", "p00"), ("--degree", "1"))
+
+    def test_every_option_changes_the_scene_or_is_refused(self):
+        """Noise has light of every degree, channel and direction, so what counts changes some pixel."""
+        self.make_library(2)
+        first = {"--panorama": "p00"}
+        for scene in self.SCENES:
+            self.assert_effects(scene, {"basis": {}, "contact": {"--grid": "1x1", "--page": "1"}}.get(scene, first))
+        self.assert_effects("compare", {**first, "--with": "p01"})
+
+    def picture(self, scene, given):
+        """The picture, of panoramas that are projected for it, or nothing; and what was said."""
+        arguments = [word for option in given.items() for word in option]
+        done = self.shoal("render", "lib", "--scene", scene, *arguments, "--size", "640x360", "--way", "surfaceless",
+                          "-o", "a.png")
+        return done.status == 0 and (self.folder / "a.png").read_bytes(), done.err
+
+    def assert_effects(self, scene, given):
+        plain, said = self.picture(scene, given)
+        self.assertTrue(plain, said)
+        for option, value in self.OPTIONS:
+            picture, said = self.picture(scene, {**given, option: value})
+            if picture:
+                self.assertFalse(picture == plain, f"{option} changes nothing in {scene} {given}")
+            else:
+                mark = f"error: {option} has no effect in the scene {scene} (it counts in "
+                self.assertTrue(said.startswith(mark), said)
+                only_with = option == "--quantity" and scene == "compare"
+                self.assertEqual(scene in said.removeprefix(mark), only_with, said)
+
+
 class Reporting(Commands):
     def test_a_page_beside_the_results(self):
         self.make_output()
