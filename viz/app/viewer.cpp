@@ -82,6 +82,8 @@ class Viewer {
         return show(Cameras::reset);
       case KeyEffect::toggle_help:
         return toggle_help();
+      case KeyEffect::tell_last_degree:
+        return give_notice(last_degree_text(library_, state_));
       case KeyEffect::save:
         return save();
       case KeyEffect::quit:
@@ -148,6 +150,11 @@ class Viewer {
     window_->Render();
   }
 
+  void give_notice(const std::string& text) {
+    notice_.emplace(show_notice(text, *window_));
+    window_->Render();
+  }
+
   void take_notice_away() {
     if (!notice_) return;
     notice_->take_away();
@@ -163,8 +170,7 @@ class Viewer {
     if (!written) written.error().hint = "start `shoal view` in another folder";
     if (help_) help_.emplace(show_help(*window_));
     const std::string said = written ? "saved " + file.string() : written.error().text();
-    notice_.emplace(show_notice(said, *window_));
-    window_->Render();
+    give_notice(said);
     if (written) {
       tell(said);
     } else {

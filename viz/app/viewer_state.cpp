@@ -1,5 +1,7 @@
 #include "app/viewer_state.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 
@@ -17,7 +19,10 @@ KeyEffect step(const Library& library, int by, ViewerState& state) {
   if (state.scene == SceneKind::basis) return KeyEffect::nothing;
   if (state.scene == SceneKind::contact) {
     const int count = contact_page_count(library, state.settings);
+    if (count == 1) return KeyEffect::nothing;
     state.settings.page = (state.settings.page + by + count) % count;
+    state.panorama = static_cast<std::size_t>(state.settings.page) *
+                     static_cast<std::size_t>(contact_cell_count(state.settings));
     return KeyEffect::show;
   }
   const std::size_t count = library.panoramas.size();
@@ -35,7 +40,10 @@ KeyEffect choose_scene(SceneKind scene, ViewerState& state) {
 
 // The highest degree that there is to see.
 int highest_degree(const Library& library, const ViewerState& state) {
-  if (state.scene == SceneKind::basis) return kMostBasisDegree;
+  if (state.scene == SceneKind::basis) {
+    return std::max(kMostBasisDegree,
+                    state.settings.degree.value_or(0));  // --degree may ask for more
+  }
   if (state.scene != SceneKind::contact) {
     return library.panoramas[state.panorama].coefficients.degree;
   }
@@ -48,11 +56,12 @@ int highest_degree(const Library& library, const ViewerState& state) {
 
 KeyEffect change_degree(const Library& library, int by, ViewerState& state) {
   const int highest = highest_degree(library, state);
-  const int degree = std::clamp(shown_degree(library, state) + by, 0, highest);
+  const int shown = shown_degree(library, state);
+  const int degree = std::clamp(shown + by, 0, highest);
   state.settings.degree = degree;
   // All that there is, also of the next panorama, which may have more.
   if (degree == highest && state.scene != SceneKind::basis) state.settings.degree.reset();
-  return KeyEffect::show;
+  return degree == shown ? KeyEffect::tell_last_degree : KeyEffect::show;
 }
 
 KeyEffect change_exposure(double by, ViewerState& state) {
@@ -113,6 +122,15 @@ int shown_degree(const Library& library, const ViewerState& state) {
   const int highest = highest_degree(library, state);
   const int whole = state.scene == SceneKind::basis ? kBasisDegree : highest;
   return std::min(state.settings.degree.value_or(whole), highest);
+}
+
+std::string last_degree_text(const Library& library, const ViewerState& state) {
+  const int degree = shown_degree(library, state);
+  const bool is_lowest = degree < highest_degree(library, state);
+  if (is_lowest) return fmt::format("degree {} is the lowest", degree);
+  return fmt::format(
+      "degree {} is {}", degree,
+      state.scene == SceneKind::basis ? "the highest that is drawn here" : "all there is");
 }
 
 std::string subject_name(const Library& library, const ViewerState& state) {

@@ -21,11 +21,12 @@ struct ViewerState {
 
 // What is left to do for a key once the state has changed.
 enum class KeyEffect {
-  nothing,      // the key has no meaning, or not here
-  show,         // show the state
-  reset_view,   // show it as it was before the mouse turned it
-  toggle_help,  //
-  save,         // a picture
+  nothing,     // the key has no meaning, or not here
+  show,        // show the state
+  reset_view,  // show it as it was before the mouse turned it
+  toggle_help,
+  tell_last_degree,  // there is none beyond the one that is shown
+  save,              // a picture
   quit,
 };
 
@@ -34,6 +35,9 @@ enum class KeyEffect {
 
 // The degree to which the state shows its panorama, or the basis.
 [[nodiscard]] int shown_degree(const Library& library, const ViewerState& state);
+
+// What to say where there is no degree beyond the one that is shown.
+[[nodiscard]] std::string last_degree_text(const Library& library, const ViewerState& state);
 
 // Whose picture it is: the panorama's full name; the library's where the scene shows none or all.
 [[nodiscard]] std::string subject_name(const Library& library, const ViewerState& state);

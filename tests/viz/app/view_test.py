@@ -154,6 +154,43 @@ class View(ShoalTest):
         last = window.press("7")
         self.assertNotEqual(last, first)
         window.expect_back("p", first)
+        # And from a page to its first panorama.
+        window.press("n")
+        window.press("3")
+        window.expect_title("studio", "sphere")
+        window.expect_back("7", last)
+        window.press("n")
+        window.press("3")
+        window.expect_title("dusk", "sphere")
+        window.quit()
+
+    def test_a_page_alone_leaves_the_panorama(self):
+        window = self.open_panoramas()
+        second = window.press("n")
+        sheet = window.press("7")
+        window.expect_back("n", sheet)
+        window.expect_back("2", second)
+        window.quit()
+
+    def test_the_ends_of_the_degrees_are_told(self):
+        """By a card, which the next key takes away."""
+        window = self.open_panoramas()
+        for key, steps in (("+", 0), ("-", 4)):
+            for _ in range(steps):
+                window.press(key)
+            last = window.now
+            window.press(key)
+            window.expect_back("f", last)
+        for key in "++++":  # the way back is as long
+            window.press(key)
+        window.quit()
+
+    def test_the_ends_of_the_basis_are_told(self):
+        window = self.open("light.csv", "--scene", "basis", "--degree", "13")  # more than + leads to
+        last = window.now
+        window.press("+")
+        window.expect_back("f", last)
+        window.press("-")
         window.quit()
 
     def test_settings_there_and_back(self):
