@@ -81,6 +81,9 @@ void check(const std::filesystem::path& path) {
   if (!plain) return;
   const PictureInfo& info = (*plain)->info();
   if (std::int64_t{info.width} * info.height > kMostPixels) return;
+  // OpenEXR's DWA decoder (3.1) leaves memory as it finds it where a file is damaged, and hands it
+  // out as samples: such a file does not even read as itself.
+  if (info.format.find("DWA") != info.format.npos) return;
   demand(read_everything(**plain) == read_everything(**fast), "plain loops and SIMD read the same");
 
   static ProjectionTables tables;
