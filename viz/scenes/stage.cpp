@@ -149,7 +149,7 @@ double Stage::line_height(TextSize size) const { return 1.4 * text_pixels(size) 
 double Stage::text_width(const std::string& text, TextSize size) const {
   vtkNew<vtkTextProperty> property;
   set_style(*property, text, text_pixels(size), TextStyle{.size = size});
-  return measured_width(text, *property) / width_;
+  return measured_width(drawable(text, *property), *property) / width_;
 }
 
 void Stage::set_title(const std::string& title, const std::string& subject) {
@@ -240,9 +240,10 @@ vtkRenderer& Stage::front_of(vtkRenderer& view) {
 void Stage::add_text(double x, double y, const std::string& text, const TextStyle& style) {
   if (text.empty() || style.max_width <= 0.0) return;
   vtkNew<vtkTextActor> actor;
-  set_style(*actor->GetTextProperty(), text, text_pixels(style.size), style);
-  actor->SetInput(
-      shortened(text, *actor->GetTextProperty(), style.max_width * width_, style.cut).c_str());
+  vtkTextProperty& property = *actor->GetTextProperty();
+  set_style(property, text, text_pixels(style.size), style);
+  const std::string drawn = drawable(text, property);
+  actor->SetInput(shortened(drawn, property, style.max_width * width_, style.cut).c_str());
   // Whole pixels: type between them would be blurred.
   actor->SetPosition(std::lround(x * width_), std::lround(y * height_));
   overlay_->AddActor2D(actor);

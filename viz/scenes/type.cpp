@@ -1,5 +1,6 @@
 #include "scenes/type.h"
 
+#include <vtkNew.h>
 #include <vtkStdString.h>
 #include <vtkTextRenderer.h>
 
@@ -7,12 +8,17 @@
 #include <cstdint>
 #include <filesystem>
 #include <initializer_list>
+#include <string_view>
 #include <vector>
+
+#include "core/utf8.h"
 
 namespace shoal::viz {
 namespace {
 
-constexpr int kDpi = 72;  // a point of type is a pixel
+constexpr int kDpi = 72;                         // a point of type is a pixel
+constexpr const char* kBox = "\u25A1";           // WHITE SQUARE, for a letter that cannot be drawn
+constexpr const char* kNoLetter = "\U0010FFFD";  // for private use, and used by no font
 
 // The largest code point of a UTF-8 text outside General Punctuation and Mathematical Operators,
 // of which VTK's font has what shoal-viz itself writes.
@@ -55,6 +61,19 @@ const char* system_font(std::uint32_t letter) {
   return letter >= 0x2E80 && eastern != nullptr ? eastern : western;
 }
 
+// Letters of which nothing is drawn though a font may have them: spaces, joiners, and what chooses
+// a variant of the letter before. UTF-8 sorts as the code points do.
+bool is_blank(const std::string& letter) {
+  constexpr struct {
+    std::string_view first;
+    std::string_view last;
+  } kBlank[] = {{"\u00A0", "\u00A0"}, {"\u00AD", "\u00AD"}, {"\u2000", "\u200F"},
+                {"\u2028", "\u202F"}, {"\u205F", "\u206F"}, {"\u3000", "\u3000"},
+                {"\uFE00", "\uFE0F"}, {"\uFEFF", "\uFEFF"}, {"\U000E0000", "\U000E01FF"}};
+  return std::ranges::any_of(
+      kBlank, [&](const auto& range) { return letter >= range.first && letter <= range.last; });
+}
+
 // Where each character of a UTF-8 text begins, and where the last one ends. Later bytes of one are
 // 10xxxxxx.
 std::vector<std::size_t> letters_of(const std::string& text) {
@@ -83,6 +102,28 @@ void set_font(vtkTextProperty& property, const std::string& text) {
   if (font == nullptr) return;
   property.SetFontFile(font);
   property.SetFontFamily(VTK_FONT_FILE);
+}
+
+std::string drawable(const std::string& text, vtkTextProperty& property) {
+  vtkNew<vtkTextProperty> large;  // so that no letter is as narrow as nothing
+  large->ShallowCopy(&property);
+  large->SetFontSize(64);
+  const double nothing = measured_width(kNoLetter, *large);
+  const auto is_there = [&](const std::string& letter) {
+    return is_blank(letter) || measured_width(letter, *large) > nothing;
+  };
+  std::string drawn;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::string letter(utf8_character_at(text, at));  // empty: a byte that is none
+    const bool is_ascii = letter.size() == 1;
+    if (is_ascii || (!letter.empty() && is_there(letter))) {
+      drawn += letter;
+    } else {
+      drawn += is_there(kBox) ? kBox : "?";
+    }
+    at += std::max<std::size_t>(1, letter.size());
+  }
+  return drawn;
 }
 
 double measured_width(const std::string& text, vtkTextProperty& property) {

@@ -11,6 +11,10 @@ namespace shoal::viz {
 // and a few signs of mathematics. For text beyond them a font of the system, where there is one.
 void set_font(vtkTextProperty& property, const std::string& text);
 
+// The text as the property's font can draw it: VTK leaves out letters that the font lacks, so each
+// of them is a box here, or a question mark where the font has no box.
+[[nodiscard]] std::string drawable(const std::string& text, vtkTextProperty& property);
+
 // Pixels that a line of type takes.
 [[nodiscard]] double measured_width(const std::string& text, vtkTextProperty& property);
 

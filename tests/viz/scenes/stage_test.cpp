@@ -141,6 +141,44 @@ TEST(Shortened, KeepsWhatTellsNamesApart) {
             "\u00e4...\u00e4");
 }
 
+// Nothing is left out: a letter that the font lacks has a sign in its place, and those that it has
+// stay, marks on others and what nobody sees included. No font has U+10FFFD, for private use; VTK's
+// has no box.
+TEST(Drawable, HasASignForEveryLetterThatIsNotThere) {
+  const auto drawn = [](const std::string& text) {
+    vtkNew<vtkTextProperty> property;
+    set_font(*property, text);
+    property->SetFontSize(11);
+    return drawable(text, *property);
+  };
+  for (const char* text : {"", "plain (soft)", "Z\u00fcrich", "11.4 \u00b7 59 %, \u22123\u00b0",
+                           "l \u2264 4", "a\u00a0b\u200bc\ufe0f"}) {
+    EXPECT_EQ(drawn(text), text);
+  }
+  EXPECT_EQ(drawn("a\xff z\xc3"), "a? z?");
+  const std::string mixed = drawn("e\u0301 \u0391\U0010fffd.\u0391");
+  if (mixed.find("\u0391") == std::string::npos) GTEST_SKIP() << "no font has Greek letters";
+  EXPECT_EQ(mixed, "e\u0301 \u0391\u25a1.\u0391");
+}
+
+// Where no font has East Asian letters each is a box, which takes room.
+TEST(Stage, ShowsThatLettersAreMissing) {
+  auto window = make_offscreen_window({640, 360});
+  if (!window) GTEST_SKIP() << window.error().text();
+  Stage stage(**window);
+  const double one = stage.text_width("Z\u00fcrich \u2600 \u6771", TextSize::label);
+  const double two = stage.text_width("Z\u00fcrich \u2600 \u6771\u4eac", TextSize::label);
+  EXPECT_GT(two - one, 0.5 * stage.text_pixels(TextSize::label) / 640);
+  stage.add_text(0.1, 0.5, "\u6771\u4eac");
+  const Picture picture = take_picture(**window);
+  const std::array<int, 3> background = pixel(picture, 0.001, 0.1);
+  int drawn = 0;
+  for (int column = 0; column < 640; ++column) {
+    drawn += pixel(picture, (column + 0.5) / 640, 0.51) != background;
+  }
+  EXPECT_GE(drawn, 2);
+}
+
 // A clause that is longer than a line goes on in another, after a word.
 TEST(Stage, CaptionsGoOnAfterAWord) {
   auto window = make_offscreen_window({640, 360});
