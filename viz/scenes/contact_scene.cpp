@@ -199,7 +199,8 @@ Status show_contact_scene(const SceneInput& input, Stage& stage) {
   const bool is_dense = contact_cell_count(settings) > kCellsOfPage;
   const std::string lines[] = {
       "each at its own exposure: pixels, irradiance on a white ball, " +
-          describe(settings.quantity) + " lobes at a scale of their own" +
+          describe(settings.quantity) + " lobes of " + std::string(name_of(settings.channel)) +
+          " at a scale of their own" +
           (some_changed ? "; other light: pixels before lights were added "
                           "or a part taken out"
                         : ""),
