@@ -57,13 +57,15 @@ void add_meridian(std::vector<glm::vec3>& pairs, int up, double radius, double t
 
 void add_axes(Stage& stage, vtkRenderer& view, double length, TextSize size,
               const std::shared_ptr<const Mesh>& hidden_by) {
+  // In small views type is large beside the axes.
+  const double of_names = (size == TextSize::small ? 1.18 : 1.09) * length;
   for (int axis = 0; axis < 3; ++axis) {
     add_arrow(view, {}, along(axis, length), theme::kAxis, 0.009 * length);
     const glm::vec3 negative[] = {{}, along(axis, -length)};
     add_lines(view, negative, theme::kAxis, 1.0);
-    add_label(stage, view, along(axis, 1.09 * length), std::string("+") + kNames[axis], size,
+    add_label(stage, view, along(axis, of_names), std::string("+") + kNames[axis], size,
               theme::kText, hidden_by);
-    add_label(stage, view, along(axis, -1.09 * length), std::string(kMinus) + kNames[axis], size,
+    add_label(stage, view, along(axis, -of_names), std::string(kMinus) + kNames[axis], size,
               theme::kDimText, hidden_by);
   }
 }

@@ -109,7 +109,7 @@ void add_orientation(const SceneInput& input, Stage& stage, const Pyramid& pyram
   const Rectangle last = pyramid.cell((pyramid.degree - 1) / 2, -(pyramid.degree + 2) / 2);
   vtkRenderer& view = stage.add_view({first.left, last.bottom, last.right, first.top});
   add_axes(stage, view, 1.0, TextSize::small);
-  aim_camera(view, input.settings.frame, 1.25);
+  aim_camera(view, input.settings.frame, 1.32);
 }
 
 }  // namespace

@@ -1,8 +1,14 @@
 #include <gtest/gtest.h>
+#include <vtkBillboardTextActor3D.h>
+#include <vtkPropCollection.h>
 #include <vtkRenderer.h>
 #include <vtkRendererCollection.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "scenes/colours.h"
 #include "scenes/scene.h"
@@ -119,6 +125,63 @@ TEST_F(Scenes, ALightAtPlusZPointsAlongTheDrawnPlusZInEveryFrame) {
     const glm::dvec2 lobe = sum / count - drawn(0.0);
     EXPECT_GT(glm::dot(axis, glm::normalize(lobe)), 0.98) << alias.name;
     EXPECT_GT(glm::length(lobe), 5.0) << alias.name;
+  }
+}
+
+// Where a renderer of the window shows a point.
+glm::dvec2 shown_at(vtkRenderer& renderer, const glm::dvec3& point) {
+  renderer.SetWorldPoint(point.x, point.y, point.z, 1.0);
+  renderer.WorldToDisplay();
+  return {renderer.GetDisplayPoint()[0], renderer.GetDisplayPoint()[1]};
+}
+
+struct DrawnName {
+  std::string text;  // "+x", a minus as long as a plus otherwise
+  glm::dvec3 point;
+  vtkRenderer* renderer;
+};
+
+std::vector<DrawnName> drawn_names(vtkRenderWindow& window) {
+  std::vector<DrawnName> names;
+  vtkCollectionSimpleIterator cookie;
+  window.GetRenderers()->InitTraversal(cookie);
+  while (vtkRenderer* renderer = window.GetRenderers()->GetNextRenderer(cookie)) {
+    vtkCollectionSimpleIterator props;
+    renderer->GetViewProps()->InitTraversal(props);
+    while (vtkProp* prop = renderer->GetViewProps()->GetNextProp(props)) {
+      auto* name = vtkBillboardTextActor3D::SafeDownCast(prop);
+      if (name == nullptr) continue;
+      const double* at = name->GetPosition();
+      names.push_back({name->GetInput(), {at[0], at[1], at[2]}, renderer});
+    }
+  }
+  return names;
+}
+
+// The name "+x" stands on the positive x axis as it is drawn, "-x" on the other half, and so on:
+// all six, in every scene and frame that names axes. Lobes are drawn along those axes by the test
+// above.
+TEST_F(Scenes, NameTheHalfAxesThatTheyStandAt) {
+  for (const FrameAlias& alias : frame_aliases()) {
+    settings_.frame = alias.frame;
+    for (const SceneKind kind : {SceneKind::basis, SceneKind::lobes, SceneKind::sphere}) {
+      picture_of(kind);
+      const std::vector<DrawnName> names = drawn_names(*window_);
+      std::set<std::string> met;
+      for (const DrawnName& name : names) {
+        const std::size_t axis = std::string("xyz").find(name.text.back());
+        ASSERT_NE(axis, std::string::npos) << name.text;
+        glm::dvec3 expected(0.0);
+        expected[static_cast<int>(axis)] = name.text.front() == '+' ? 1.0 : -1.0;
+        EXPECT_GT(glm::dot(expected, glm::normalize(name.point)), 0.9999) << name.text;
+        const glm::dvec2 middle = shown_at(*name.renderer, glm::dvec3(0.0));
+        const glm::dvec2 there = shown_at(*name.renderer, name.point) - middle;
+        const glm::dvec2 axis_end = shown_at(*name.renderer, expected) - middle;
+        EXPECT_GT(glm::dot(glm::normalize(there), glm::normalize(axis_end)), 0.9999) << name.text;
+        met.insert(name.text);
+      }
+      EXPECT_EQ(met.size(), 6u) << name_of(kind) << ' ' << alias.name;
+    }
   }
 }
 

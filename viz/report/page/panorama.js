@@ -220,7 +220,7 @@ class PanoramaView {
     const sums = energies(this.lights[chosen('quantity')]);
     const total = sums.reduce((a, b) => a + b, 0);
     const everyLabel = Math.ceil(sums.length / 16);
-    byId('energy-unit').textContent = `of the ${kQuantities[chosen('quantity')]}, as parts of all; logarithmic, from ${percentText(10 ** -kEnergyDecades)}`;
+    byId('energy-unit').textContent = `of the ${kQuantities[chosen('quantity')]}, all channels, as parts of all; logarithmic, from ${percentText(10 ** -kEnergyDecades)}`;
     const bars = sums.map((sum, l) => {
       const share = total > 0 ? sum / total : 0;
       const height = share > 0 ? Math.max(0, 1 + Math.log10(share) / kEnergyDecades) : 0;
