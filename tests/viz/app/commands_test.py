@@ -157,6 +157,16 @@ class Messages(Commands):
             for text in texts:
                 self.assertIn(text, done.err)
 
+    def test_where_nothing_can_draw(self):
+        """No EGL driver (its loader, libglvnd, finds none) and no X: a sentence, not VTK's abort."""
+        self.make_output()
+        for display in ({}, {"DISPLAY": ":987"}):
+            environment = support.plain_environment(__EGL_VENDOR_LIBRARY_FILENAMES="/nonexistent", **display)
+            done = self.expect(1, "render", "out", "--panorama", "p00", "-o", "a.png", env=environment)
+            self.assertEqual((done.out, len(done.err.splitlines())), ("", 1), done)
+            self.assertRegex(done.err, "^error: nothing here can draw: .*xvfb-run")
+            self.assertFalse((self.folder / "a.png").exists())
+
     def test_size(self):
         self.make_output()
         for size in ("640", "640x", "x480", "0x0", "640x480x3", "100000x10"):
